@@ -148,29 +148,33 @@ class History:
     _periodic: bool
 
     def __init__(self, answer: _core.History, case: dict[str, Any]) -> None:
-        self._kept = of_kind("answer", answer, _core.History)
+        self._take(of_kind("answer", answer, _core.History), json.loads(answer.plan()))
         self.case = of_kind("case", case, dict)
-        self.plan = json.loads(answer.plan())
         self.version = _core.__version__
         bars = json.loads(answer.error_bars() or "null")
         self.error_bars = None if bars is None or "missing" in bars else bars
-        self.increments = Table((name, np.asarray(column)) for name, column in answer.increments().items())
-        self.x = answer.centres(0)
-        self.y = answer.centres(1)
-        self.stages = answer.stages()
-        self._bodies = answer.bodies()
-        self._residual_stress = answer.residual_stress()
-        dx, dy = answer.spacing()
-        self._spacing = (dx, dy)
-        self._periodic = answer.periodic()
-        self.cycles = Table(columns(json.loads(answer.cycles())))
-        self.running_conditions = json.loads(answer.running_conditions())
         self.worn_through = json.loads(answer.worn_through())
         self.worn_by_layer = json.loads(answer.worn_by_layer())
         self.status = "solved"
         self.message = None
         self._folder = None
         self.warnings = json.loads(answer.warnings())
+
+    def _take(self, answer: _core.History | _core.StoredRun, plan: dict[str, Any]) -> None:
+        """Take what a run in memory and one in a folder have in common."""
+        case = plan["case"]
+        self._kept = answer
+        self.plan = plan
+        self.increments = Table((name, np.asarray(column)) for name, column in answer.increments().items())
+        self.x, self.y = answer.centres(0), answer.centres(1)
+        self.stages = [stage["name"] for stage in case["stages"]]
+        self._bodies = json.dumps(case["bodies"])
+        self._residual_stress = json.dumps(case.get("residual_stress", [{"layers": []}, {"layers": []}]))
+        dx, dy = plan["grid"]["spacing"]
+        self._spacing = (dx, dy)
+        self._periodic = bool(case["periodic"])
+        self.cycles = Table(columns(json.loads(answer.cycles())))
+        self.running_conditions = json.loads(answer.running_conditions())
 
     def __getstate__(self) -> dict[str, Any]:
         """Everything as plain arrays."""

@@ -1,23 +1,15 @@
 """Opening what ``fret run`` or ``History.save`` has written."""
 
-import csv
 import json
 import os
 import tomllib
-from collections import Counter
 from pathlib import Path
 from typing import Any, NoReturn
 
-import numpy as np
-import numpy.typing as npt
-
 from fretting import _core
 from fretting._arguments import checked
-from fretting._meaning import STEP_KINDS
-from fretting.cycles import MEANING as CYCLE_COLUMNS
-from fretting.cycles import columns
 from fretting.errors import MissingFileError, UnreadableError
-from fretting.history import History, Table
+from fretting.history import History
 
 
 @checked
@@ -52,41 +44,20 @@ def open_results(folder: str | os.PathLike[str]) -> History:
     >>> history.plot_loop()  # doctest: +SKIP
     """
     path = Path(folder)
-    if not path.is_dir():
-        what = "a file, not a folder" if path.exists() else "no such folder"
-        _refuse(path, what, "give the folder that `fret run CASE --out FOLDER` wrote", missing=not path.exists())
-    record = _record(path)
-    plan = record["plan"]
-    stages = [stage["name"] for stage in plan["case"]["stages"]]
-    finished = record["status"] == "solved"
-    steps = _steps(path / "history.csv", whole=finished)
-    done = record["totals"]["increments"] if finished else len(steps["increment"])
-    if len(steps["increment"]) != done or not np.array_equal(steps["increment"], np.arange(done)):
-        _refuse(path / "history.csv", f"does not hold the {done} increments of the run")
+    if not path.exists():
+        _refuse(path, "no such folder", "give the folder that `fret run CASE --out FOLDER` wrote", missing=True)
+    stored = _core.StoredRun(path)
+    record = json.loads(stored.record())
     history = History.__new__(History)
-    history.increments = steps
-    store = _Stored(path)
+    history._take(stored, record["plan"])
     history._folder = path.resolve()
     history.status, history.message = record["status"], record.get("message")
-    history._kept = store
-    history.x, history.y = store.coordinate("x"), store.coordinate("y")
-    history.stages = stages
-    courses = [stage["course"] for stage in plan["case"]["stages"]]
-    is_cyclic = any(isinstance(course, dict) and course["cycles"] is not None for course in courses)
-    records = _cycles(path / "cycles.csv", whole=finished) if is_cyclic else []
     history.case = _case(path)
-    history.plan, history.version = plan, record["version"]
+    history.version = record["version"]
     history.error_bars = _error_bars(path)
-    history.cycles = Table(columns([cycle for cycle in records if cycle["last_increment"] < done]))
-    history.running_conditions = [_running_condition(history.cycles, stage) for stage in range(len(stages))]
     history.worn_through = record.get("worn_through")
     history.worn_by_layer = record.get("worn_by_layer")
-    history.warnings = record.get("warnings", [])
-    history._bodies = json.dumps(plan["case"]["bodies"])
-    history._residual_stress = json.dumps(plan["case"].get("residual_stress", [{"layers": []}, {"layers": []}]))
-    dx, dy = plan["grid"]["spacing"]
-    history._spacing = (dx, dy)
-    history._periodic = bool(plan["case"]["periodic"])
+    history.warnings = record["warnings"]
     return history
 
 
@@ -106,115 +77,6 @@ def _error_bars(path: Path) -> dict[str, Any] | None:
         return dict(json.loads(_read(place)))
     except (ValueError, TypeError) as error:
         _refuse(place, f"not what a run writes: {error}")
-
-
-class _Stored:
-    """Fields in a run's store, read by the command's own reader, which tells damaged ones."""
-
-    def __init__(self, folder: Path) -> None:
-        self._run = _core.StoredRun(folder)
-        self._steps = self._run.kept_increments()
-        self._names = self._run.names()
-
-    def coordinate(self, name: str) -> npt.NDArray[np.float64]:
-        return self._run.centres("xy".index(name))
-
-    def kept_increments(self) -> list[int]:
-        return list(self._steps)
-
-    def kept_fields(self, increment: int) -> list[str]:
-        return list(self._names) if increment in self._steps else []
-
-    def field(self, name: str, increment: int) -> npt.NDArray[Any]:
-        return self._run.field(name, self._steps.index(increment))
-
-
-def _record(path: Path) -> dict[str, Any]:
-    """Return ``run.json`` of a run, with what is needed of it."""
-    place = path / "run.json"
-    way = "give the folder that `fret run CASE --out FOLDER` wrote"
-    if not place.is_file():
-        _refuse(path, "not a folder of results: it has no run.json", way)
-    try:
-        record = json.loads(_read(place))
-        if record["program"] != "fretting" or record["format"] != 1:
-            _refuse(path, "results of another program, or of another version of the format", way)
-        case, grid = record["plan"]["case"], record["plan"]["grid"]
-        _ = case["bodies"], case["periodic"], record["version"]
-        if record["status"] == "solved":
-            _ = record["totals"]["increments"]
-        _ = [(stage["name"], stage["course"]) for stage in case["stages"]]
-        if [len(grid["cells"]), len(grid["spacing"])] != [2, 2]:
-            raise ValueError("a grid has two sides")
-    except (ValueError, KeyError, TypeError) as error:
-        _refuse(place, f"not what a run writes: {type(error).__name__}: {error}")
-    return dict(record)
-
-
-def _steps(path: Path, whole: bool) -> Table:
-    """Return the columns of ``history.csv``."""
-    rows = list(csv.reader(_lines(path, whole)))
-    head, body = [_name(cell) for cell in rows[0]], rows[1:]
-    wanted = [name for name in head if name in STEP_KINDS]
-    if lost := [name for name in STEP_KINDS if name not in head]:
-        _refuse(path, f"has no column {lost[0]}; it may be of an earlier version: run the case again")
-    try:
-        return Table((name, _column(name, [row[head.index(name)] for row in body])) for name in wanted)
-    except (ValueError, IndexError) as error:
-        _refuse(path, f"not the table of a run: {error}")
-
-
-def _name(heading: str) -> str:
-    """Return the name of a column, whose head has its unit in brackets where the case declares units."""
-    return heading.partition(" [")[0]
-
-
-def _column(name: str, cells: list[str]) -> npt.NDArray[Any]:
-    return np.array(cells, dtype={int: np.int64, float: np.float64, str: np.str_}[STEP_KINDS[name]])
-
-
-def _cycles(path: Path, whole: bool) -> list[dict[str, Any]]:
-    """Return the lines of ``cycles.csv``."""
-    rows = csv.DictReader(_lines(path, whole))
-    try:
-        named = [{_name(head): cell for head, cell in row.items()} for row in rows]
-        return [{name: _value(row[name]) for name in CYCLE_COLUMNS} for row in named]
-    except (AttributeError, KeyError, TypeError) as error:
-        _refuse(path, f"not the table of a run's cycles: {error}")
-
-
-def _value(cell: str) -> object:
-    if cell in ("", "true", "false"):
-        return {"": None, "true": True, "false": False}[cell]
-    for kind in (int, float):
-        try:
-            return kind(cell)
-        except ValueError:
-            pass
-    return cell
-
-
-def _running_condition(cycles: dict[str, npt.NDArray[Any]], stage: int) -> str | None:
-    """Return the fretting regime of a stage: gross if all cycles slide, partial if none slides or is mixed."""
-    regimes = Counter(str(regime) for regime in cycles["regime"][cycles["stage"] == stage] if regime)
-    if not regimes:
-        return None
-    if set(regimes) == {"gross_slip"}:
-        return "gross"
-    return "mixed" if {"gross_slip", "mixed"} & set(regimes) else "partial"
-
-
-def _lines(path: Path, whole: bool) -> list[str]:
-    """Return the lines of a table.
-
-    Of one that is not whole the last may be torn, by a kill or since it is being written.
-    """
-    text = _read(path).decode("utf-8", "replace")
-    if not text.endswith("\n"):
-        if whole or "\n" not in text:
-            _refuse(path, "ends in the middle of a line")
-        text = text[: text.rindex("\n") + 1]
-    return text.splitlines()
 
 
 def _read(path: Path) -> bytes:

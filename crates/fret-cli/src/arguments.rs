@@ -10,7 +10,7 @@ use crate::threads;
 #[derive(Debug, Parser)]
 #[command(
     name = "fret",
-    version = crate::commit::VERSION,
+    version = fret_results::commit::VERSION,
     after_help = "Exit codes: 0 solved; 1 the case was refused (also when the contact grows to the edge of its grid); 2 failure (an increment did not converge, or a file could not be written); 130 interrupted, can be resumed. A sweep ends with 1 if points were refused and none failed, with 2 if a point failed."
 )]
 pub struct Arguments {

@@ -1,12 +1,11 @@
 //! Why a call ended without its answer, in words and as an exit code.
 
-use std::io;
-use std::path::{Path, PathBuf};
-
-use fret_core::case::{CaseError, printable};
+use fret_core::case::{CaseError, Mistake, printable};
 use fret_core::machine::memory::MemoryError;
 use fret_core::run::RunError;
-use serde_json::{Value, json};
+pub use fret_results::Unwritten;
+use fret_results::{Ending, ResultsError};
+use serde::{Deserialize, Serialize};
 
 use crate::figures::shortened;
 
@@ -46,6 +45,31 @@ pub enum Failure {
     Defect(String),
 }
 
+/// A failure, for programs.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct FailureRecord {
+    /// One word.
+    pub status: String,
+    /// Why.
+    pub message: String,
+    /// The mistakes of a case, where it is one that is refused.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mistakes: Option<Vec<MistakeRecord>>,
+}
+
+/// A mistake in a case, for programs.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct MistakeRecord {
+    /// What was found, and what is allowed.
+    pub message: String,
+    /// A way out.
+    pub help: Option<String>,
+    /// Its line, from 1.
+    pub line: Option<usize>,
+    /// Its column, from 1.
+    pub column: Option<usize>,
+}
+
 /// A failure on its way to the user.
 #[derive(Debug)]
 pub struct Told {
@@ -58,37 +82,6 @@ pub struct Told {
 impl<F: Into<Failure>> From<F> for Told {
     fn from(failure: F) -> Self {
         Self { failure: failure.into(), in_json: false }
-    }
-}
-
-/// A file or stream that could not be written.
-#[derive(Debug)]
-pub struct Unwritten {
-    /// Which one.
-    pub path: PathBuf,
-    /// Why not.
-    pub cause: io::Error,
-}
-
-impl Unwritten {
-    /// The writing of `path` failed by `cause`.
-    pub fn at(path: &Path) -> impl FnOnce(io::Error) -> Self {
-        let path = path.to_owned();
-        |cause| Self { path, cause }
-    }
-}
-
-impl std::fmt::Display for Unwritten {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let cause = match self.cause.kind() {
-            io::ErrorKind::PermissionDenied => "no permission".to_owned(),
-            io::ErrorKind::ReadOnlyFilesystem => "the file system is read-only".to_owned(),
-            io::ErrorKind::StorageFull => "the disk is full".to_owned(),
-            io::ErrorKind::FileTooLarge => "longer than a file may be here (ulimit -f)".to_owned(),
-            io::ErrorKind::QuotaExceeded => "the disk quota is used up".to_owned(),
-            _ => self.cause.to_string(),
-        };
-        write!(formatter, "{}: cannot be written: {cause}", self.path.display())
     }
 }
 
@@ -127,6 +120,11 @@ impl Failure {
         }
     }
 
+    /// The end of a run by it.
+    pub fn ending(&self) -> Ending {
+        Ending { status: self.status().to_owned(), message: self.message() }
+    }
+
     /// What went wrong, without colour, for records.
     pub fn message(&self) -> String {
         match self {
@@ -160,22 +158,19 @@ impl Failure {
     }
 
     /// What went wrong, for programs.
-    pub fn to_json(&self) -> Value {
-        let mut value = json!({ "status": self.status(), "message": self.message() });
-        if let Self::Case(error) = self {
-            let mistakes = error.mistakes().iter().map(|mistake| {
-                let place = error.place(mistake);
-                json!({
-                    "message": mistake.message,
-                    "help": mistake.help,
-                    "line": place.map(|(line, _)| line),
-                    "column": place.map(|(_, column)| column),
-                })
-            });
-            value["message"] = json!(format!("{}: refused", error.name()));
-            value["mistakes"] = mistakes.collect();
-        }
-        value
+    pub fn record(&self) -> FailureRecord {
+        let (message, mistakes) = match self {
+            Self::Case(error) => {
+                let of = |mistake: &Mistake| {
+                    let (line, column) = error.place(mistake).unzip();
+                    let Mistake { message, help, .. } = mistake.clone();
+                    MistakeRecord { message, help, line, column }
+                };
+                (format!("{}: refused", error.name()), Some(error.mistakes().iter().map(of).collect()))
+            }
+            _ => (self.message(), None),
+        };
+        FailureRecord { status: self.status().to_owned(), message, mistakes }
     }
 }
 
@@ -204,6 +199,18 @@ impl From<CaseError> for Failure {
 impl From<MemoryError> for Failure {
     fn from(error: MemoryError) -> Self {
         Self::Memory(error)
+    }
+}
+
+impl From<ResultsError> for Failure {
+    fn from(error: ResultsError) -> Self {
+        match error {
+            ResultsError::Case(error) => Self::Case(error),
+            ResultsError::Refused(what, help) => Self::Call(what, help),
+            ResultsError::Memory(error) => Self::Memory(error),
+            ResultsError::Unwritten(unwritten) => Self::Unwritten(unwritten),
+            ResultsError::Defect(what) => Self::Defect(what),
+        }
     }
 }
 

@@ -3,9 +3,7 @@
 //! A library, so that the program `fret` and the one that comes with the Python wheel are the same to the letter.
 
 mod arguments;
-mod case_file;
 mod commands;
-mod commit;
 mod defect;
 mod drawing;
 pub mod embedded;
@@ -15,15 +13,11 @@ mod failure;
 mod figures;
 mod identify;
 mod interrupt;
-mod origin;
-mod output;
 mod progress;
 mod report;
-mod results;
 mod study;
 mod summary;
 mod sweep;
-mod tally;
 mod terminal;
 mod threads;
 
@@ -52,7 +46,7 @@ pub fn command_line(words: impl IntoIterator<Item = OsString>) -> u8 {
         Err(Told { failure, in_json }) => {
             if arguments.json && !in_json {
                 // A reader that cannot be told is told by the exit code.
-                let _ = terminal::answer_in_json(&failure.to_json());
+                let _ = terminal::answer_in_json(&serde_json::json!(failure.record()));
             }
             terminal::say_in_colour(&failure.render(terminal::errors_in_colour()));
             failure.code()
@@ -88,7 +82,7 @@ fn asked_for_help_or_mistaken(error: &clap::Error) -> u8 {
     let is_answer = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
     if !is_answer && std::env::args_os().any(|argument| argument == "--json") {
         let failure = Failure::Call(error.to_string().trim_end().to_owned(), String::new());
-        let _ = terminal::answer_in_json(&failure.to_json());
+        let _ = terminal::answer_in_json(&serde_json::json!(failure.record()));
     }
     // A stream that is closed cannot be told so.
     let _ = error.print();

@@ -9,8 +9,8 @@ use fret_core::run::Iteration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::figures::{duration, figure, shortened};
-use crate::tally::Tally;
 use crate::terminal;
+use fret_results::Tally;
 
 /// The bar's second line is not written anew more often than this.
 const LIVE_PAUSE: Duration = Duration::from_millis(60);

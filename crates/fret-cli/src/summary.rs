@@ -7,12 +7,13 @@ use fret_core::case::{Stage, Units};
 use fret_core::history::{CycleRecord, CycleRegime, Drive, StepRecord, Warning, WornTo};
 use fret_core::plan::{Coupling, Plan};
 use fret_core::study::pressure_is_unbounded;
+use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::estimate::Estimate;
 use crate::failure::Failure;
 use crate::figures::{LONGEST_TITLE, counted, duration, figure, figure_beside, shortened};
-use crate::tally::Tally;
+use fret_results::Tally;
 
 /// Stages that stand side by side in the table.
 const MOST_COLUMNS: usize = 4;
@@ -253,30 +254,20 @@ impl Summary<'_> {
 
     /// The same for programs; `failure` says why the run ended early, if it did.
     pub fn to_json(&self, failure: Option<&Failure>) -> Value {
-        let stages: Vec<Value> = self
+        let stages: Vec<StageAnswer<'_>> = self
             .tally
             .stage_ends
             .iter()
-            .map(|record| {
-                let mut value = serde_json::to_value(record).unwrap_or(Value::Null);
-                value["name"] = json!(self.stage_name(record.stage));
-                if !self.plan.grid.is_line() {
-                    value["equivalent_radius"] = json!((record.contact_area / std::f64::consts::PI).sqrt());
-                }
-                value["stick_share"] = json!(stick_share(record));
-                value
+            .map(|record| StageAnswer {
+                record,
+                name: self.stage_name(record.stage),
+                equivalent_radius: (!self.plan.grid.is_line())
+                    .then(|| (record.contact_area / std::f64::consts::PI).sqrt()),
+                stick_share: stick_share(record),
             })
             .collect();
-        let cycles: Vec<Value> = self
-            .tally
-            .cycles
-            .iter()
-            .map(|energy| {
-                let mut value = serde_json::to_value(energy).unwrap_or(Value::Null);
-                value["stage"] = json!(self.stage_name(energy.stage));
-                value
-            })
-            .collect();
+        let named = |cycle| CycleAnswer { cycle, stage: self.stage_name(cycle.stage) };
+        let cycles: Vec<CycleAnswer<'_>> = self.tally.cycles.iter().map(named).collect();
         json!({
             "status": failure.map_or("solved", Failure::status),
             "message": failure.map(Failure::message),
@@ -304,6 +295,25 @@ impl Summary<'_> {
     fn stage_name(&self, stage: usize) -> &str {
         self.tally.stages.get(stage).map_or("", |stage| stage.name.as_str())
     }
+}
+
+/// The end of a stage, for programs.
+#[derive(Serialize)]
+struct StageAnswer<'a> {
+    #[serde(flatten)]
+    record: &'a StepRecord,
+    name: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    equivalent_radius: Option<f64>,
+    stick_share: Option<f64>,
+}
+
+/// A cycle, for programs: its stage is told by its name.
+#[derive(Serialize)]
+struct CycleAnswer<'a> {
+    #[serde(flatten)]
+    cycle: &'a CycleRecord,
+    stage: &'a str,
 }
 
 /// Letters of a warning, at the most: the name of a stage may be long.

@@ -1,13 +1,13 @@
 //! The question as Python hands it over: text, read and judged by the core.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
-use fret_cli::embedded::CaseText;
 use fret_core::case::{self, Attachments, CaseError};
 use fret_core::history;
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::run;
+use fret_results::{Beside, CaseFile};
 use ndarray::Array2;
 use numpy::{PyArray2, PyReadonlyArray2, ToPyArray};
 use pyo3::IntoPyObject;
@@ -49,24 +49,19 @@ impl Source {
 
 impl Case {
     /// The case as text, with the arrays it names by number put into files.
-    pub fn text(&self) -> PyResult<CaseText> {
+    pub fn text(&self) -> PyResult<CaseFile> {
         let Source { text, name, folder, arrays, .. } = &self.1;
-        let path = Path::new(name);
+        let beside = |contents| Beside { folder: folder.clone(), contents };
         let Some(arrays) = arrays else {
-            let is_file = path.is_file();
-            return Ok(CaseText {
-                text: text.clone(),
-                name: name.clone(),
-                is_file,
-                folder: folder.clone(),
-                contents: Vec::new(),
-            });
+            let path = PathBuf::from(name);
+            let beside = if path.is_file() { None } else { Some(beside(Vec::new())) };
+            return Ok(CaseFile { path, text: text.clone(), beside });
         };
         let mut value: Value = serde_json::from_str(text).map_err(bad_value)?;
         let mut contents = Vec::new();
         in_files(&mut value, arrays, &mut contents);
         let text = case::toml_of(&value).map_err(PyValueError::new_err)?;
-        Ok(CaseText { text, name: name.clone(), is_file: false, folder: folder.clone(), contents })
+        Ok(CaseFile::of_text(name, text, beside(contents)))
     }
 
     /// The state its history starts from.

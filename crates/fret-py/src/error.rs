@@ -1,8 +1,11 @@
 //! From the core's refusals and failures to the exceptions of `fretting.errors`.
 
-use fret_cli::embedded::Stopped;
+use std::path::Path;
+
+use fret_cli::embedded::Failure;
 use fret_core::case;
 use fret_core::run;
+use fret_results::ResultsError;
 use pyo3::PyErr;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 
@@ -41,25 +44,29 @@ pub fn unreadable(message: String, path: &str) -> PyErr {
     UnreadableError::new_err((message, path.to_owned()))
 }
 
+/// A folder that holds no results, or not those that were written.
+pub fn unusable(error: ResultsError, folder: &Path) -> PyErr {
+    unreadable(Failure::from(error).render(false), &folder.to_string_lossy())
+}
+
 /// A bad argument of a function.
 pub fn bad_value(error: impl std::error::Error) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
 /// A call that ended without its answer, in the words of Python's arguments.
-pub fn stopped(stopped: Stopped) -> PyErr {
-    match stopped {
-        Stopped::Case(error) => refused(&error),
-        Stopped::Call(what, help) => {
+pub fn stopped(failure: Failure) -> PyErr {
+    let message = failure.message();
+    match failure {
+        Failure::Case(error) => refused(&error),
+        Failure::Call(what, help) => {
             PyValueError::new_err(format!("{}\n  = help: {}", in_arguments(&what), in_arguments(&help)))
         }
-        Stopped::Memory(what) => OutOfMemoryError::new_err((what, 0)),
-        Stopped::Unsolved(error) => failed(&error),
-        Stopped::Interrupted(what) => PyKeyboardInterrupt::new_err(in_arguments(&what)),
-        Stopped::Unwritten(path, what) => {
-            UnreadableError::new_err((what, path.to_string_lossy().into_owned()))
-        }
-        Stopped::Defect(what) => PyRuntimeError::new_err(what),
+        Failure::Memory(_) => OutOfMemoryError::new_err((message, 0)),
+        Failure::Unsolved(error) => failed(&error),
+        Failure::Interrupted(what) => PyKeyboardInterrupt::new_err(in_arguments(&what)),
+        Failure::Unwritten(unwritten) => unreadable(message, &unwritten.path.to_string_lossy()),
+        Failure::Points { .. } | Failure::Defect(_) => PyRuntimeError::new_err(message),
     }
 }
 

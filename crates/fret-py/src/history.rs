@@ -2,13 +2,14 @@
 
 use std::path::PathBuf;
 
-use fret_cli::embedded::{self, CaseText, Earlier, Solved};
+use fret_cli::embedded::{self, Solved};
 use fret_core::history::{
     self, CYCLE_COLUMNS, Column, FIELDS, Field, FieldValues, STEP_COLUMNS, StepRecord, Value, ZONE_WORDS,
     running_condition,
 };
 use fret_core::plan::Plan;
 use fret_core::study::StageQuantities;
+use fret_results::{CaseFile, Wish};
 use numpy::{IntoPyArray, PyArray1, ToPyArray};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyResult, Python, pyclass, pyfunction, pymethods};
@@ -40,7 +41,7 @@ pub struct History {
     /// What was solved.
     pub plan: Plan,
     /// The case as it was read.
-    pub case: CaseText,
+    pub case: CaseFile,
     /// Quantities of interest at the ends of the stages.
     pub quantities: Vec<StageQuantities>,
     /// JSON text of its error bars, where they were asked for.
@@ -124,33 +125,7 @@ impl History {
             error_bars: self.error_bars.as_deref(),
         };
         let case = self.case.clone();
-        py.detach(|| embedded::save(solved, case, &folder, Earlier::of(false, replace))).map_err(stopped)
-    }
-
-    /// Names of the stages.
-    fn stages(&self) -> Vec<String> {
-        self.solved.stages.clone()
-    }
-
-    /// The two bodies as JSON.
-    fn bodies(&self) -> PyResult<String> {
-        serde_json::to_string(&self.solved.bodies).map_err(crate::error::bad_value)
-    }
-
-    /// Residual stresses of the lower and the upper body as JSON.
-    fn residual_stress(&self) -> String {
-        let residual = &self.solved.plan["case"]["residual_stress"];
-        if residual.is_null() { "[{\"layers\":[]},{\"layers\":[]}]".to_owned() } else { residual.to_string() }
-    }
-
-    /// Sides of a cell [length].
-    fn spacing(&self) -> [f64; 2] {
-        self.solved.grid.spacing()
-    }
-
-    /// Whether the scene repeats in x and y.
-    fn periodic(&self) -> bool {
-        self.solved.periodic
+        py.detach(|| embedded::save(solved, case, &folder, Wish::of(false, replace))).map_err(stopped)
     }
 
     /// Coordinates of the cell centres along axis 0 or 1 [length].

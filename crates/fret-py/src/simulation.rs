@@ -10,12 +10,13 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::Duration;
 
-use fret_cli::embedded::{self, Earlier};
+use fret_cli::embedded;
 use fret_core::history::{CycleRecord, KeptFields, StepRecord};
 use fret_core::model::{MirroredState, SurfaceGrid};
 use fret_core::plan::{Advance, Plan};
 use fret_core::run::{Checkpoint, Iteration, Observer, Simulation};
 use fret_core::study::StageQuantities;
+use fret_results::Wish;
 use pyo3::prelude::{Py, PyAny, PyErr, PyResult, Python, pyfunction};
 
 use crate::case::Case;
@@ -163,7 +164,7 @@ pub fn run_into(
     let (resume, replace, estimate_error) = how;
     let (text, start) = (case.text()?, case.start());
     let plan = py.detach(|| case.planned()).map_err(|error| refused(&error))?;
-    let how = (Earlier::of(resume, replace), estimate_error, threads.number());
+    let how = (Wish::of(resume, replace), estimate_error, threads.number());
     let (result, interruption) = py.detach(|| {
         listen(&plan, on_step.as_ref(), |reporter| embedded::run_into(text, start, &folder, how, reporter))
     });

@@ -4,12 +4,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use fret_core::history;
+use fret_results::Origin;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyBytes;
 
-use crate::error::unreadable;
+use crate::error::unusable;
 use crate::history::History;
 
 /// A solved state with its grid, bodies and profile.
@@ -21,9 +22,10 @@ impl Start {
     /// The state at the end of an increment (the last one when none is given) of the results in a folder.
     #[staticmethod]
     fn from_folder(folder: PathBuf, increment: Option<usize>) -> PyResult<Self> {
-        fret_cli::embedded::start_from(&folder, increment)
-            .map(Self)
-            .map_err(|message| unreadable(message, &folder.to_string_lossy()))
+        match Origin::of(&folder, increment) {
+            Ok(origin) => Ok(Self(origin.start)),
+            Err(error) => Err(unusable(error, &folder)),
+        }
     }
 
     /// The state at the end of an increment of a history.

@@ -5,16 +5,16 @@ use std::path::Path;
 use fret_core::run::plausibility;
 use serde_json::json;
 
-use crate::case_file::CaseFile;
 use crate::commands::plan::{cells, stages, warnings};
 use crate::failure::Failure;
 use crate::figures::counted;
 use crate::terminal;
+use fret_results::{CaseFile, planned_from};
 
 /// Judges a case.
 pub fn check(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failure> {
     let case_file = CaseFile::read(path)?;
-    let plan = case_file.planned_from(from)?;
+    let plan = planned_from(&case_file, from)?;
     if as_json {
         let answer = json!({
             "status": "good",

@@ -9,23 +9,23 @@ use fret_core::subsurface::crack_path::{CrackStart, NoCrack, crack_path};
 use fret_core::subsurface::fatigue::{LayerConstants, Parameter};
 use fret_core::subsurface::severity::constants_of;
 use fret_core::subsurface::{LoadedSurface, MostSevere};
-use serde_json::{Value, json};
 
+use super::stress_record::CrackRecord;
 use crate::failure::Failure;
 use crate::figures::{figure, figure_in};
 use crate::interrupt;
-use crate::output::kept_run::KeptRun;
+use fret_results::Results;
 
 /// Where the crack runs.
 pub struct Crack<'a> {
-    pub run: &'a KeptRun,
+    pub run: &'a Results,
     pub half_space: &'a HalfSpace,
     pub constants: &'a LayerConstants,
 }
 
 /// What is told of it.
 pub struct CrackAnswer {
-    pub record: Value,
+    pub record: CrackRecord,
     pub table: String,
     /// `crack.csv`, where it was followed.
     pub csv: Option<String>,
@@ -41,9 +41,9 @@ impl Crack<'_> {
         let Some(constants) = constants_of(self.half_space, self.constants, 0).crack else { return Ok(None) };
         let severe = at_surface.iter().find(|found| found.parameter == Parameter::SmithWatsonTopper);
         let Some(severe) = severe else { return Ok(None) };
-        let grid = &self.run.grid;
+        let grid = self.run.grid();
         let followed = CrackStart::of(severe, grid.is_line()).and_then(|start| {
-            let setting = (grid, self.run.periodic);
+            let setting = (grid, self.run.case().periodic);
             let goes_on = || !interrupt::is_asked();
             let path = crack_path(self.half_space, setting, &start, constants.final_length, cycle, goes_on)?;
             let course =
@@ -59,7 +59,7 @@ impl Crack<'_> {
                 ));
             }
             Err(why) => CrackAnswer {
-                record: json!({ "fate": "none", "reason": why.to_string() }),
+                record: CrackRecord::None { fate: "none".to_owned(), reason: why.to_string() },
                 table: format!("  crack: none: {why}\n"),
                 csv: None,
             },
@@ -67,14 +67,25 @@ impl Crack<'_> {
     }
 
     fn answer(&self, start: &CrackStart, course: &CrackCourse) -> CrackAnswer {
-        let grid = &self.run.grid;
+        let grid = self.run.grid();
         let [x, y] = [0, 1].map(|axis| grid.centre(axis, 0) + start.place[axis] * grid.spacing()[axis]);
         let degrees = start.angle.to_degrees();
-        let record = json!({
-            "fate": course.fate, "x": x, "y": y, "angle": degrees, "towards": start.horizontal,
-            "length": course.length, "cycles": course.cycles,
-        });
-        let units = self.run.units.as_ref();
+        let fate = match course.fate {
+            CrackFate::DoesNotGrow => "does_not_grow",
+            CrackFate::Stops => "stops",
+            CrackFate::Grows => "grows",
+            CrackFate::Fractures => "fractures",
+        };
+        let record = CrackRecord::Followed {
+            fate: fate.to_owned(),
+            x,
+            y,
+            angle: degrees,
+            towards: start.horizontal,
+            length: course.length,
+            cycles: course.cycles,
+        };
+        let units = self.run.units();
         let length = figure_in(units, course.length, "length");
         let end = match course.fate {
             CrackFate::DoesNotGrow => format!("does not grow: below the threshold at {length}"),

@@ -8,8 +8,8 @@ use crate::arguments::ExportArguments;
 use crate::export::{csv, npz, vtk};
 use crate::failure::Failure;
 use crate::figures::counted;
-use crate::results::Results;
 use crate::terminal;
+use fret_results::Results;
 
 type Writing = fn(&Results, &Path) -> Result<Vec<PathBuf>, Failure>;
 

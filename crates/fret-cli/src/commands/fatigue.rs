@@ -1,5 +1,6 @@
 //! Fatigue over the last cycle, under all cells at all depths: parameters, cycles to initiation, factors of safety; fracture of the coating.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use fret_core::case::Units;
@@ -9,17 +10,19 @@ use fret_core::subsurface::fatigue::{LayerConstants, Parameter};
 use fret_core::subsurface::film_stress::{FilmCrack, FilmStress};
 use fret_core::subsurface::severity::{constants_of, material_of};
 use fret_core::subsurface::{DepthPoint, Judged, LoadedSurface, MostSevere, Severity, StressField};
-use serde_json::{Value, json};
 
 use super::crack::{Crack, CrackAnswer};
+use super::stress_record::{
+    AtDistance, Bounded, CriticalDistance, FatigueRecord, FilmRecord, ParameterRecord, UNLIMITED,
+};
+use crate::commands::stress_kinds::kind_of_stress;
 use crate::failure::Failure;
 use crate::figures::{figure, figure_in};
-use crate::output::kept_run::KeptRun;
-use crate::output::kind_of_stress;
+use fret_results::Results;
 
 /// Collects what fatigue is judged by, one depth at a time.
 pub struct Fatigue<'a> {
-    run: &'a KeptRun,
+    run: &'a Results,
     half_space: &'a HalfSpace,
     constants: &'a LayerConstants,
     points: &'a [DepthPoint],
@@ -37,9 +40,9 @@ pub type Picture = (String, Vec<Vec<f64>>);
 #[derive(Default)]
 pub struct Finished {
     /// Fatigue, for `stress.json`.
-    pub fatigue: Option<Value>,
+    pub fatigue: Option<FatigueRecord>,
     /// Fracture of the coating, for `stress.json`.
-    pub coating: Option<Value>,
+    pub coating: Option<Vec<FilmRecord>>,
     /// For a person.
     pub table: String,
     /// To be drawn.
@@ -51,7 +54,7 @@ pub struct Finished {
 impl<'a> Fatigue<'a> {
     /// Nothing collected yet; `cycle` are the surfaces of the last cycle, three at least.
     pub fn new(
-        run: &'a KeptRun,
+        run: &'a Results,
         half_space: &'a HalfSpace,
         constants: &'a LayerConstants,
         (points, surfaces): (&'a [DepthPoint], &'a [LoadedSurface]),
@@ -86,17 +89,17 @@ impl<'a> Fatigue<'a> {
     }
 
     fn told(&self, value: f64, kind: &str) -> String {
-        figure_in(self.run.units.as_ref(), value, kind)
+        figure_in(self.run.units(), value, kind)
     }
 
     fn place(&self, cell: [usize; 2], off: [f64; 2]) -> [f64; 2] {
-        let grid = &self.run.grid;
+        let grid = self.run.grid();
         [0, 1].map(|axis| grid.centre(axis, cell[axis]) + off[axis] * grid.spacing()[axis])
     }
 
     fn parameters(&self, judged: &Judged, finished: &mut Finished) -> Result<(), Failure> {
         let increments: Vec<usize> = self.cycle.iter().map(|&n| self.surfaces[n].increment).collect();
-        let mut parameters = serde_json::Map::new();
+        let mut parameters = BTreeMap::new();
         let _ = writeln!(
             finished.table,
             "  fatigue over increments {} to {}, all cells",
@@ -111,7 +114,7 @@ impl<'a> Fatigue<'a> {
             let Some(largest) = largest else { continue };
             let mut entry = self.entry(largest);
             if of.len() > 1 {
-                entry["layers"] = of.iter().map(|found| self.entry(found)).collect();
+                entry.layers = of.iter().map(|found| self.entry(found)).collect();
             }
             self.line(largest, &mut finished.table);
             if let Some((_, at)) = judged.at_distance.iter().find(|(of, _)| *of == parameter) {
@@ -120,19 +123,15 @@ impl<'a> Fatigue<'a> {
                     |value: f64| parameter.cycles(value, &material_of(self.half_space, 0)?, &constants);
                 let told = |(value, cell): (f64, [usize; 2])| {
                     let [x, y] = self.place(cell, [0.0; 2]);
-                    let mut told = json!({ "value": value, "x": x, "y": y });
-                    if let Some(cycles) = cycles(value) {
-                        told["cycles"] = finite(cycles);
-                    }
-                    told
+                    AtDistance { value, x, y, cycles: cycles(value).map(Bounded) }
                 };
                 let in_words = |value: f64| {
                     let cycles =
                         cycles(value).map_or(String::new(), |cycles| format!(" ({} cycles)", worded(cycles)));
                     self.told(value, kind_of_stress(parameter.name())) + &cycles
                 };
-                entry["critical_distance"] =
-                    json!({ "distance": at.distance, "point": told(at.point), "line": told(at.line) });
+                let (point, line) = (told(at.point), told(at.line));
+                entry.critical_distance = Some(CriticalDistance { distance: at.distance, point, line });
                 let _ = writeln!(
                     finished.table,
                     "    at the critical distance {}: {} by the point method, {} by the line method",
@@ -151,7 +150,10 @@ impl<'a> Fatigue<'a> {
                     if value > best.0 { (value, [i, j]) } else { best }
                 });
                 let [x, y] = self.place(cell, [0.0; 2]);
-                parameters.insert(name.to_owned(), json!({ "largest": value, "x": x, "y": y, "depth": 0.0 }));
+                parameters.insert(
+                    name.to_owned(),
+                    ParameterRecord { largest: value, x, y, ..ParameterRecord::default() },
+                );
                 let _ = writeln!(
                     finished.table,
                     "  {:<20} {:<12} at x {:<12} surface",
@@ -164,9 +166,9 @@ impl<'a> Fatigue<'a> {
         finished.files.push(("fatigue.csv", self.by_layer(judged)));
         let crack = Crack { run: self.run, half_space: self.half_space, constants: self.constants };
         let cycle: Vec<LoadedSurface> = self.cycle.iter().map(|&n| self.surfaces[n].clone()).collect();
-        let mut fatigue = json!({ "increments": increments, "parameters": parameters });
+        let mut fatigue = FatigueRecord { increments, parameters, crack: None };
         if let Some(CrackAnswer { record, table, csv }) = crack.followed(&judged.at_surface, &cycle)? {
-            fatigue["crack"] = record;
+            fatigue.crack = Some(record);
             finished.table += &table;
             finished.files.extend(csv.map(|csv| ("crack.csv", csv)));
         }
@@ -181,25 +183,21 @@ impl<'a> Fatigue<'a> {
         Ok(())
     }
 
-    fn entry(&self, found: &MostSevere) -> Value {
+    fn entry(&self, found: &MostSevere) -> ParameterRecord {
         let [x, y] = self.place(found.cell, found.off);
-        let mut entry = json!({
-            "largest": found.value, "x": x, "y": y, "depth": found.point.depth, "layer": found.point.layer,
-        });
-        if let Some(normal) = found.normal {
-            entry["normal"] = json!(normal);
+        ParameterRecord {
+            largest: found.value,
+            x,
+            y,
+            depth: found.point.depth,
+            layer: Some(found.point.layer),
+            normal: found.normal,
+            largest_cell: Some(found.of_cells),
+            cycles: found.cycles.map(Bounded),
+            largest_cell_cycles: found.cycles_of_cells.map(Bounded),
+            factor_of_safety: found.factor_of_safety.map(Bounded),
+            ..ParameterRecord::default()
         }
-        entry["largest_cell"] = json!(found.of_cells);
-        for (name, value) in [
-            ("cycles", found.cycles),
-            ("largest_cell_cycles", found.cycles_of_cells),
-            ("factor_of_safety", found.factor_of_safety),
-        ] {
-            if let Some(value) = value {
-                entry[name] = finite(value);
-            }
-        }
-        entry
     }
 
     fn line(&self, found: &MostSevere, table: &mut String) {
@@ -231,7 +229,7 @@ impl<'a> Fatigue<'a> {
 
     /// Lines of `fatigue.csv`: the largest value of every parameter in every layer.
     fn by_layer(&self, judged: &Judged) -> String {
-        let head = |name: &str| Units::heading(self.run.units.as_ref(), name, "length", false);
+        let head = |name: &str| Units::heading(self.run.units(), name, "length", false);
         let [x, y, depth] = ["x", "y", "depth"].map(head);
         let mut text = format!(
             "parameter,layer,largest,{x},{y},{depth},cycles,factor_of_safety,largest_cell,largest_cell_cycles,normal_x,normal_y,normal_z,point_method,line_method\n"
@@ -272,18 +270,21 @@ impl<'a> Fatigue<'a> {
         for FilmCrack { stress, direction, surface, cell, released } in cracks {
             let [x, y] = self.place(cell, [0.0; 2]);
             let increment = self.surfaces[surface].increment;
-            let mut record = json!({
-                "stress": stress, "direction": direction, "increment": increment, "x": x, "y": y,
-                "channelling": released.channelling, "delamination": released.delamination, "phase": released.phase,
+            let factor = |(energy, toughness): (f64, f64)| Bounded((toughness / energy).sqrt());
+            records.push(FilmRecord {
+                stress,
+                direction,
+                increment,
+                x,
+                y,
+                channelling: released.channelling,
+                delamination: released.delamination,
+                phase: released.phase,
+                channelling_factor_of_safety: released.channelling.zip(constants.fracture_energy).map(factor),
+                delamination_factor_of_safety: constants
+                    .interface_energy
+                    .map(|toughness| factor((released.delamination, toughness))),
             });
-            for (name, energy, toughness) in [
-                ("channelling_factor_of_safety", released.channelling, constants.fracture_energy),
-                ("delamination_factor_of_safety", Some(released.delamination), constants.interface_energy),
-            ] {
-                if let Some((energy, toughness)) = energy.zip(toughness) {
-                    record[name] = finite((toughness / energy).sqrt());
-                }
-            }
             let sense = if stress > 0.0 { "tension" } else { "compression" };
             let channelling = match released.channelling {
                 Some(energy) => self.told(energy, "pressure x length"),
@@ -297,18 +298,12 @@ impl<'a> Fatigue<'a> {
                 self.told(y, "length"),
                 self.told(released.delamination, "pressure x length")
             );
-            records.push(record);
         }
-        finished.coating = Some(Value::Array(records));
+        finished.coating = Some(records);
     }
 }
 
 /// A number for a person, or the word for one beyond all bounds.
 fn worded(value: f64) -> String {
-    if value.is_finite() { figure(value) } else { "unlimited".to_owned() }
-}
-
-/// A number, or the word for one beyond all bounds.
-pub fn finite(value: f64) -> Value {
-    if value.is_finite() { json!(value) } else { json!("unlimited") }
+    if value.is_finite() { figure(value) } else { UNLIMITED.to_owned() }
 }

@@ -18,26 +18,27 @@ use fret_core::plan::memory_of_stress;
 use ndarray::Array2;
 use serde_json::{Value, json};
 
+use super::heat_record::{AtPlace, HeatRecord, Increments, ResistanceRecord, RiseRecord};
 use crate::arguments::HeatArguments;
-use crate::case_file::CaseFile;
 use crate::export::npz;
 use crate::failure::Failure;
-use crate::figures::{duration, figure, figure_in};
+use crate::figures::{duration, figure_in};
 use crate::interrupt;
-use crate::output::kept_run::KeptRun;
-use crate::output::{folder_below, write_whole};
 use crate::terminal;
 use crate::threads;
+use fret_results::CaseFile;
+use fret_results::Results;
+use fret_results::{folder_below, write_whole};
 
 /// Computes temperatures and resistances for a result folder.
 pub fn heat(arguments: &HeatArguments, as_json: bool) -> Result<(), Failure> {
     interrupt::listen();
     let folder = &arguments.folder;
-    let mut run = KeptRun::open(folder)?;
+    let mut run = Results::read(folder)?;
     if let Some(path) = &arguments.case {
-        run.conduction = CaseFile::read(path)?.case(None)?.conduction;
+        run.record.plan.case.conduction = CaseFile::read(path)?.case(None)?.conduction;
     }
-    if run.conduction.is_none() {
+    if run.case().conduction.is_none() {
         return Err(Failure::Call(
             format!("{}: its case says nothing about conduction", folder.display()),
             "thermal_conductivity or electrical_resistivity in the layers of a case; give it with --case FILE"
@@ -58,8 +59,8 @@ pub fn heat(arguments: &HeatArguments, as_json: bool) -> Result<(), Failure> {
 
 /// Temperatures and resistances of a run that has just ended.
 pub fn after_run(folder: &Path, quiet: bool) -> Result<(), Failure> {
-    let run = KeptRun::open(folder)?;
-    if run.grid.is_line() || run.steps.is_empty() {
+    let run = Results::read(folder)?;
+    if run.grid().is_line() || run.fields.reached.is_empty() {
         return Ok(());
     }
     let (_, table) = computed(folder, &run, None)?;
@@ -70,42 +71,54 @@ fn of([lower, upper]: &[Option<Conductor>; 2]) -> [Option<&Conductor>; 2] {
     [lower.as_ref(), upper.as_ref()]
 }
 
+/// The conductors of both bodies; nothing where one does not conduct.
+fn both(pair: &[Option<Conductor>; 2]) -> Option<[Option<&Conductor>; 2]> {
+    let conductors = of(pair);
+    conductors.iter().all(Option::is_some).then_some(conductors)
+}
+
 /// What is written, and what a person reads.
-fn computed(folder: &Path, run: &KeptRun, every: Option<usize>) -> Result<(Value, String), Failure> {
+fn computed(folder: &Path, run: &Results, every: Option<usize>) -> Result<(Value, String), Failure> {
     let started = Instant::now();
-    let [first, last] = run.last_cycle;
-    memory::check(memory_of_stress(run.grid.len(), last + 1 - first))?;
-    let mut table = run.unfinished.as_ref().map_or(String::new(), |why| format!("{why}\n"));
-    let rise = match run.conduction.frequency {
-        Some(frequency) => Some(temperature(folder, run, frequency)?),
+    let ([first, last], _) = run.last_cycle();
+    memory::check(memory_of_stress(run.grid().len(), last + 1 - first))?;
+    let rise = match run.case().conduction.frequency {
+        Some(frequency) => Some((frequency, temperature(folder, run, frequency)?)),
         None => None,
     };
     let place = folder_below(folder, Path::new("heat"))?;
     let rise = match rise {
-        Some((found, cycle, accounted)) => {
+        Some((frequency, (found, cycle, accounted))) => {
             fields(&place.join("temperature.npz"), run, &found)?;
-            Some(told(run, &found, (&cycle, accounted), &mut table))
+            Some(risen(run, &found, (frequency, &cycle, accounted)))
         }
         None => None,
     };
-    let resistances = resistances(folder, run, every, &mut table)?;
-    let wall_s = started.elapsed().as_secs_f64();
-    let record = json!({
-        "status": "computed",
-        "unfinished": run.unfinished,
-        "temperature": rise,
-        "resistance": resistances,
-        "wall_s": wall_s,
-    });
-    write_whole(&place.join("heat.json"), format!("{record:#}\n").as_bytes())?;
-    let _ = write!(table, "\nwritten to {} in {}", place.display(), duration(wall_s));
-    Ok((record, table))
+    let record = HeatRecord {
+        status: "computed".to_owned(),
+        unfinished: run.unfinished(),
+        temperature: rise,
+        resistance: resistances(folder, run, every)?,
+        wall_s: started.elapsed().as_secs_f64(),
+    };
+    let written = json!(record);
+    write_whole(&place.join("heat.json"), format!("{written:#}\n").as_bytes())?;
+    let mut table = record.unfinished.as_ref().map_or(String::new(), |why| format!("{why}\n"));
+    for [name, value, of] in record.lines(|value, kind| figure_in(run.units(), value, kind)) {
+        let _ = if of.is_empty() {
+            writeln!(table, "{name:<30}{value}")
+        } else {
+            writeln!(table, "{name:<30}{value:<14} {of}")
+        };
+    }
+    let _ = write!(table, "\nwritten to {} in {}", place.display(), duration(record.wall_s));
+    Ok((written, table))
 }
 
 /// Temperature rise over the last cycle, the cycle, and the fraction of its energy that the kept fields account for.
 fn temperature(
     folder: &Path,
-    run: &KeptRun,
+    run: &Results,
     frequency: f64,
 ) -> Result<(SurfaceTemperature, CycleRecord, f64), Failure> {
     let shown = folder.display();
@@ -117,13 +130,13 @@ fn temperature(
     let Some(cycle) = run.cycles.last() else {
         return Err(refuse("no cycle is over, and only of a cycle is the mean power known".to_owned()));
     };
-    if !run.record["plan"]["case"]["friction"]["max_shear"].is_null() {
+    if run.case().friction.max_shear().is_some() {
         return Err(Failure::Call(
             format!("{shown}: heat by friction under friction.max_shear, a shear strength, is not computed"),
             "leave [thermal] frequency out: the contact resistance does not need it".to_owned(),
         ));
     }
-    let [nx, ny] = run.grid.cells();
+    let [nx, ny] = run.grid().cells();
     let none = || Array2::zeros((nx, ny));
     let mut increments = Vec::new();
     if cycle.first_increment == 0 {
@@ -142,13 +155,14 @@ fn temperature(
             slip: [field("slip_x")?, field("slip_y")?],
         });
     }
-    let slip = slip_of_cycle(increments, cycle.dissipated_energy, run.grid.cell_area()).ok_or_else(|| {
-        refuse("the kept fields of the last cycle give another dissipated energy than the run".to_owned())
-    })?;
+    let slip =
+        slip_of_cycle(increments, cycle.dissipated_energy, run.grid().cell_area()).ok_or_else(|| {
+            refuse("the kept fields of the last cycle give another dissipated energy than the run".to_owned())
+        })?;
     let found = surface_temperature(
-        of(&run.conduction.thermal),
-        &run.grid,
-        run.periodic,
+        of(&run.case().conduction.thermal),
+        run.grid(),
+        run.case().periodic,
         &friction_heat(&slip, frequency),
         &slip.contact,
     );
@@ -165,35 +179,23 @@ fn unanswered(folder: &Path, error: &ConductionError) -> Failure {
     }
 }
 
-fn told(
-    run: &KeptRun,
+fn risen(
+    run: &Results,
     found: &SurfaceTemperature,
-    (cycle, accounted): (&CycleRecord, f64),
-    table: &mut String,
-) -> Value {
-    let (largest, cell) = found.largest();
-    let [x, y] = [0, 1].map(|axis| run.grid.centre(axis, cell[axis]));
-    let power = found.heat.sum() * run.grid.cell_area();
-    let mean = mean_where_heated(found);
-    let length = |value: f64| figure_in(run.units.as_ref(), value, "length");
-    for (name, value) in [
-        ("friction power", figure(power)),
-        ("max temperature rise", format!("{} at x {}, y {}", figure(largest), length(x), length(y))),
-        ("mean temperature rise", format!("{} where heat is made", figure(mean))),
-        ("heat into the lower body", found.lower_fraction().map_or("-".to_owned(), figure)),
-    ] {
-        let _ = writeln!(table, "{name:<30}{value}");
+    (frequency, cycle, accounted): (f64, &CycleRecord, f64),
+) -> RiseRecord {
+    let (value, cell) = found.largest();
+    let [x, y] = [0, 1].map(|axis| run.grid().centre(axis, cell[axis]));
+    RiseRecord {
+        frequency,
+        cycle: Increments { first_increment: cycle.first_increment, last_increment: cycle.last_increment },
+        dissipated_energy: cycle.dissipated_energy,
+        kept_fields_account_for: accounted,
+        power: found.heat.sum() * run.grid().cell_area(),
+        lower_fraction: found.lower_fraction(),
+        max_rise: AtPlace { value, x, y },
+        mean_rise: mean_where_heated(found),
     }
-    json!({
-        "frequency": run.conduction.frequency,
-        "cycle": { "first_increment": cycle.first_increment, "last_increment": cycle.last_increment },
-        "dissipated_energy": cycle.dissipated_energy,
-        "kept_fields_account_for": accounted,
-        "power": power,
-        "lower_fraction": found.lower_fraction(),
-        "max_rise": { "value": largest, "x": x, "y": y },
-        "mean_rise": mean,
-    })
 }
 
 /// Mean of the temperature rise, weighted by the heat that is made: that of the power that goes in.
@@ -203,9 +205,9 @@ fn mean_where_heated(found: &SurfaceTemperature) -> f64 {
     if all > 0.0 { (&found.heat * rise).sum() / all } else { 0.0 }
 }
 
-fn fields(path: &Path, run: &KeptRun, found: &SurfaceTemperature) -> Result<(), Failure> {
-    let [x, y] = [0, 1].map(|axis| run.grid.centres(axis).to_vec());
-    let cells = run.grid.cells();
+fn fields(path: &Path, run: &Results, found: &SurfaceTemperature) -> Result<(), Failure> {
+    let [x, y] = [0, 1].map(|axis| run.grid().centres(axis).to_vec());
+    let cells = run.grid().cells();
     let flat = |field: &Array2<f64>| field.iter().copied().collect::<Vec<f64>>();
     let [heat, into_lower] = [&found.heat, &found.into_lower].map(flat);
     let rise = found.rise.each_ref().map(|rise| rise.as_ref().map(flat));
@@ -224,22 +226,15 @@ fn fields(path: &Path, run: &KeptRun, found: &SurfaceTemperature) -> Result<(), 
 }
 
 /// Resistances of the kept increments that are asked for; none where a body does not conduct.
-fn resistances(
-    folder: &Path,
-    run: &KeptRun,
-    every: Option<usize>,
-    table: &mut String,
-) -> Result<Vec<Value>, Failure> {
-    let kinds: Vec<(&str, [Option<&Conductor>; 2])> =
-        [("thermal", of(&run.conduction.thermal)), ("electrical", of(&run.conduction.electrical))]
-            .into_iter()
-            .filter(|(_, conductors)| conductors.iter().all(Option::is_some))
-            .collect();
-    let last = run.steps.len().saturating_sub(1);
+fn resistances(folder: &Path, run: &Results, every: Option<usize>) -> Result<Vec<ResistanceRecord>, Failure> {
+    let conduction = &run.case().conduction;
+    let [thermal, electrical] = [&conduction.thermal, &conduction.electrical].map(both);
+    let kept = &run.fields.reached;
+    let last = kept.len().saturating_sub(1);
     let mut rows = Vec::new();
-    for (place, &increment) in run.steps.iter().enumerate() {
+    for (place, &increment) in kept.iter().enumerate() {
         let chosen = every.map_or(place == last, |every| (last - place).is_multiple_of(every));
-        if !chosen || kinds.is_empty() {
+        if !chosen || thermal.is_none() && electrical.is_none() {
             continue;
         }
         if interrupt::is_asked() {
@@ -249,18 +244,17 @@ fn resistances(
         }
         let Some(pressure) = run.field("pressure", increment)? else { continue };
         let contact = pressure.mapv(|pressure| pressure > 0.0);
-        let mut row = json!({ "increment": increment });
-        for (name, conductors) in &kinds {
-            let found = match contact_resistance(*conductors, &run.grid, run.periodic, &contact) {
-                Err(ConductionError::Apart) => None,
-                other => Some(other.map_err(|error| unanswered(folder, &error))?),
-            };
-            row[*name] = json!(found);
-            let words = found.map_or("none: the bodies are apart".to_owned(), figure);
-            let name = format!("{name} contact resistance");
-            let _ = writeln!(table, "{name:<30}{words:<14} increment {increment}");
-        }
-        rows.push(row);
+        let found = |conductors: [Option<&Conductor>; 2]| match contact_resistance(
+            conductors,
+            run.grid(),
+            run.case().periodic,
+            &contact,
+        ) {
+            Err(ConductionError::Apart) => Ok(None),
+            other => other.map(Some).map_err(|error| unanswered(folder, &error)),
+        };
+        let [thermal, electrical] = [thermal.map(found).transpose()?, electrical.map(found).transpose()?];
+        rows.push(ResistanceRecord { increment, thermal, electrical });
     }
     Ok(rows)
 }

@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use fret_core::identify;
 
 use crate::arguments::IdentifyArguments;
-use crate::case_file::CaseFile;
 use crate::failure::Failure;
 use crate::identify::{Answer, Request, identify as identified, name_of};
-use crate::output::{folder_for_answers, stem, write_whole};
 use crate::terminal;
 use crate::threads;
+use fret_results::CaseFile;
+use fret_results::{folder_for_answers, stem, write_whole};
 
 /// The answer, which marks its folder.
 const IDENTIFIED: &str = "identified.json";

@@ -9,18 +9,18 @@ use fret_core::subsurface::LoadedSurface;
 
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::output::kept_run::KeptRun;
+use fret_results::Results;
 
 /// The tractions on the body in the increments that are looked at.
 pub fn loaded_surfaces(
     folder: &Path,
-    run: &KeptRun,
+    run: &Results,
     request: &StressRequest,
 ) -> Result<Vec<LoadedSurface>, Failure> {
-    let kept = &run.steps;
+    let kept = &run.fields.reached;
     let last = kept.len().saturating_sub(1);
     let chosen = kept.iter().enumerate().filter(|(n, _)| (last - n).is_multiple_of(request.every));
-    memory::check(memory_of_stress(run.grid.len(), chosen.clone().count()))?;
+    memory::check(memory_of_stress(run.grid().len(), chosen.clone().count()))?;
     let sign = if request.body == Side::Lower { 1.0 } else { -1.0 };
     let mut surfaces = Vec::new();
     for (_, &increment) in chosen {
@@ -31,7 +31,7 @@ pub fn loaded_surfaces(
             Ok(run.field(name[0], increment)?.zip(run.field(name[1], increment)?).map(<[_; 2]>::from))
         };
         let Some(pressure) = run.field("pressure", increment)? else { break }; // none was kept
-        let shear = if run.frictionless { None } else { pair(["shear_x", "shear_y"])? };
+        let shear = if run.is_frictionless() { None } else { pair(["shear_x", "shear_y"])? };
         let shear = shear.map(|shear| shear.map(|component| component * sign));
         let slip = pair(["slip_x", "slip_y"])?;
         let even = run.even_stress(request.body, increment);
@@ -44,7 +44,7 @@ pub fn loaded_surfaces(
             "run the case again with output.fields = [\"pressure\", \"shear\", ...]".to_owned(),
         ));
     }
-    if !run.frictionless && surfaces.iter().any(|surface| surface.shear.is_none()) {
+    if !run.is_frictionless() && surfaces.iter().any(|surface| surface.shear.is_none()) {
         return Err(Failure::Call(
             format!("{shown}: holds no shear, but the contact has friction"),
             "run the case again with output.fields = [\"pressure\", \"shear\", ...]".to_owned(),
@@ -54,21 +54,21 @@ pub fn loaded_surfaces(
 }
 
 /// How deep to look: three times the largest radius, or half-width, of the loaded area, about its centre.
-pub fn reach(run: &KeptRun, surfaces: &[LoadedSurface]) -> f64 {
+pub fn reach(run: &Results, surfaces: &[LoadedSurface]) -> f64 {
     let most = surfaces
         .iter()
         .map(|surface| surface.pressure.iter().filter(|pressure| **pressure > 0.0).count())
         .max()
         .unwrap_or(0);
-    let [width, length] = run.grid.size();
-    if run.periodic {
+    let [width, length] = run.grid().size();
+    if run.case().periodic {
         return 0.5 * width.max(length);
     }
-    if run.grid.is_line() {
-        let half_width = 0.5 * most as f64 * run.grid.spacing()[0];
+    if run.grid().is_line() {
+        let half_width = 0.5 * most as f64 * run.grid().spacing()[0];
         return if half_width > 0.0 { 3.0 * half_width } else { width };
     }
-    let radius = (most as f64 * run.grid.cell_area() / std::f64::consts::PI).sqrt();
+    let radius = (most as f64 * run.grid().cell_area() / std::f64::consts::PI).sqrt();
     if radius > 0.0 { 3.0 * radius } else { width.min(length) }
 }
 

@@ -2,27 +2,41 @@
 
 use std::path::Path;
 
+use fret_core::history::Warning;
 use fret_core::machine::memory::{self, MemoryError, amount};
 use fret_core::model::Body;
 use fret_core::plan::{Coupling, Plan};
 use fret_core::run::plausibility;
 use fret_core::study::{Expectation, expectation};
+use serde::Serialize;
 use serde_json::json;
 
-use crate::case_file::CaseFile;
 use crate::failure::Failure;
 use crate::figures::{LONGEST_TITLE, counted, duration, figure, shortened};
-use crate::output::resolved;
 use crate::summary::warning_line;
 use crate::terminal;
 use crate::threads;
+use fret_results::{CaseFile, planned_from};
 
 /// Letters of a stage's name in the list of stages, at the most.
 const STAGE_LETTERS: usize = 60;
 
+/// A plan with what it will take.
+#[derive(Serialize)]
+struct Answer<'a> {
+    #[serde(flatten)]
+    plan: &'a Plan,
+    status: &'static str,
+    increments_expected: Option<usize>,
+    convolutions_expected: Option<usize>,
+    seconds_expected: Option<f64>,
+    memory_lacking: Option<String>,
+    warnings: Vec<Warning>,
+}
+
 /// Plans a case and tells the plan.
 pub fn plan(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failure> {
-    let plan = CaseFile::read(path)?.planned_from(from)?;
+    let plan = planned_from(&CaseFile::read(path)?, from)?;
     let lacking = memory::check(plan.memory_bytes).err();
     // A run that cannot be begun takes no time, and a part of it may be too much.
     let expected = match lacking {
@@ -30,14 +44,15 @@ pub fn plan(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failur
         Some(_) => None,
     };
     if as_json {
-        let mut value = resolved(&plan);
-        value["status"] = json!("planned");
-        value["increments_expected"] = json!(expected.map(|expected| expected.increments));
-        value["convolutions_expected"] = json!(expected.map(|expected| expected.convolutions));
-        value["seconds_expected"] = json!(expected.map(|expected| expected.seconds));
-        value["memory_lacking"] = json!(lacking.map(|error| format!("this {error}")));
-        value["warnings"] = json!(plausibility::of_plan(&plan));
-        return terminal::answer_in_json(&value);
+        return terminal::answer_in_json(&json!(Answer {
+            status: "planned",
+            increments_expected: expected.map(|expected| expected.increments),
+            convolutions_expected: expected.map(|expected| expected.convolutions),
+            seconds_expected: expected.map(|expected| expected.seconds),
+            memory_lacking: lacking.map(|error| format!("this {error}")),
+            warnings: plausibility::of_plan(&plan),
+            plan: &plan,
+        }));
     }
     terminal::answer(&table(&plan, expected.as_ref(), lacking.as_ref()))
 }

@@ -10,13 +10,13 @@ use fret_core::study::companion;
 
 use super::plan::left_out_in_short;
 use crate::arguments::{LeavingOut, RunArguments};
-use crate::case_file::CaseFile;
 use crate::failure::Failure;
-use crate::origin::Origin;
-use crate::output::{ResultFolder, Standing, Wish, resolved_path};
 use crate::summary::warning_line;
 use crate::terminal;
 use crate::threads;
+use fret_results::CaseFile;
+use fret_results::Origin;
+use fret_results::{ResultFolder, Standing, Wish, resolved_path};
 
 /// What is to be run, and where to.
 pub struct Wanted {
@@ -47,11 +47,7 @@ impl Wanted {
             folder,
             case_file,
             origin: arguments.from.as_deref().map(Origin::read).transpose()?,
-            wish: match (arguments.resume, arguments.force) {
-                (true, _) => Wish::Resume,
-                (false, true) => Wish::Force,
-                (false, false) => Wish::Start,
-            },
+            wish: Wish::of(arguments.resume, arguments.force),
             leave_out: match arguments.leave_out {
                 LeavingOut::All => LeaveOut::ALL,
                 LeavingOut::None => LeaveOut::NONE,
@@ -67,7 +63,10 @@ impl Wanted {
         let Self { case_file, folder, origin, wish, quiet, .. } = self;
         let folder = resolved_path(&folder);
         let earlier = if origin.is_none() && wish == Wish::Resume { Origin::below(&folder)? } else { None };
-        let plan = case_file.planned_leaving_out(self.leave_out, origin.as_ref().or(earlier.as_ref()))?;
+        let plan = case_file.planned_leaving_out(
+            self.leave_out,
+            origin.as_ref().or(earlier.as_ref()).map(|origin| &origin.start),
+        )?;
         if let Some(Origin { results, .. }) = &origin
             && is_same_folder(&folder, Path::new(results))
         {

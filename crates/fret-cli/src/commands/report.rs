@@ -5,10 +5,10 @@ use std::path::Path;
 use serde_json::json;
 
 use crate::failure::Failure;
-use crate::output::write_whole;
 use crate::report::page;
-use crate::results::Results;
 use crate::terminal;
+use fret_results::Results;
+use fret_results::write_whole;
 
 /// Writes the page and tells where it is.
 pub fn report(folder: &Path, out: Option<&Path>, as_json: bool) -> Result<(), Failure> {

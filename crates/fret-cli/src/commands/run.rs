@@ -7,7 +7,7 @@ use fret_core::history::Warning;
 use fret_core::history::{WornByLayer, WornThrough};
 use fret_core::run::{Checkpoint, RunError, Simulation};
 use fret_core::study::StageQuantities;
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::preparation::{Preparation, Wanted};
 use super::run_observer::{Clock, Guest, RunObserver};
@@ -17,11 +17,11 @@ use crate::defect;
 use crate::estimate::{Estimate, NoBars};
 use crate::failure::{Failure, Told};
 use crate::interrupt::{self, Listener};
-use crate::output::{ERROR_BARS, Ending, ResultFolder, RunRecord, Standing, Stored, write_whole};
 use crate::progress::Progress;
 use crate::summary::Summary;
-use crate::tally::Tally;
 use crate::terminal;
+use fret_results::Tally;
+use fret_results::{ERROR_BARS, Origin, Record, ResultFolder, RunRecord, Standing, Stored, write_whole};
 
 /// Solves a case.
 pub fn run(arguments: &RunArguments, as_json: bool) -> Result<(), Told> {
@@ -44,7 +44,7 @@ pub fn run(arguments: &RunArguments, as_json: bool) -> Result<(), Told> {
 /// Where a run begins.
 enum Beginning {
     /// There is nothing to do: the record of the run that was solved before.
-    Nothing(Value),
+    Nothing(Box<Record>),
     /// At the start of the history, or in its middle.
     At(Box<Departure>),
 }
@@ -67,7 +67,7 @@ pub fn run_into(wanted: Wanted, guest: &mut Guest<'_>) -> Result<(), Failure> {
     match preparation.begun(true)? {
         Beginning::Nothing(record) => {
             let quantities = quantities_of(&record);
-            preparation.estimated(&quantities, true, guest).map(|_| ())
+            preparation.estimated(quantities, true, guest).map(|_| ())
         }
         Beginning::At(departure) => {
             let failure = preparation.followed(*departure, true, guest).failure;
@@ -77,17 +77,24 @@ pub fn run_into(wanted: Wanted, guest: &mut Guest<'_>) -> Result<(), Failure> {
 }
 
 /// Quantities of interest as a record holds them.
-fn quantities_of(record: &Value) -> Vec<StageQuantities> {
-    serde_json::from_value(record["quantities_of_interest"].clone()).unwrap_or_default()
+fn quantities_of(record: &Record) -> &[StageQuantities] {
+    record.end.as_ref().map_or(&[], |end| &end.quantities_of_interest)
 }
 
 impl Preparation {
     fn begun(&self, quiet: bool) -> Result<Beginning, Failure> {
-        let record = || RunRecord::new(&self.case_file, &self.plan, self.threads, self.origin.as_ref());
+        let record = || {
+            RunRecord::new(
+                &self.case_file,
+                &self.plan,
+                self.threads,
+                self.origin.as_ref().map(Origin::told).as_ref(),
+            )
+        };
         if let Standing::Solved(record) = &self.standing {
             return Ok(Beginning::Nothing(record.clone()));
         }
-        if self.standing == Standing::Unfinished
+        if matches!(self.standing, Standing::Unfinished)
             && let Some(taken) = ResultFolder::reopen(&self.folder, &self.case_file, &self.plan, record())?
         {
             let Stored { head, checkpoint } = taken.stored;
@@ -115,18 +122,19 @@ impl Preparation {
     }
 
     /// Tells that the run was solved before. Only what error bars need besides is computed, when they are asked for.
-    fn solved_before(&self, record: &Value, quiet: bool, as_json: bool) -> Result<(), Failure> {
+    fn solved_before(&self, record: &Record, quiet: bool, as_json: bool) -> Result<(), Failure> {
         let shown = self.folder.display().to_string();
-        let estimate = self.estimated(&quantities_of(record), quiet, &mut Listener)?;
+        let estimate = self.estimated(quantities_of(record), quiet, &mut Listener)?;
         let done =
             if estimate.is_some() { "its error bars are computed now" } else { "nothing is left to do" };
         let message = format!("{shown}: solved already, {done}");
         if as_json {
+            let totals = record.end.as_ref().map(|end| &end.totals);
             let answer = json!({
                 "status": "solved",
                 "message": message,
-                "increments": record["totals"]["increments"],
-                "totals": record["totals"],
+                "increments": totals.map(|totals| totals.increments),
+                "totals": totals,
                 "results": shown,
                 "error_bars": estimate.map(|estimate| estimate.to_json(|stage| self.stage_name(stage))),
             });
@@ -157,7 +165,8 @@ impl Preparation {
         let wall_s = clock.read();
         let failure = failure.or_else(|| outcome.err());
         let warnings = tally.gauge.warnings(&self.plan);
-        let closed = folder.close((&tally, &warnings), wall_s, failure.as_ref().map(Ending::of).as_ref());
+        let closed =
+            folder.close((&tally, &warnings), wall_s, failure.as_ref().map(Failure::ending).as_ref());
         let failure = failure.or_else(|| closed.err().map(Failure::from));
         let (estimate, failure) = match failure {
             None => match self.estimated(&tally.stage_quantities, quiet, guest) {

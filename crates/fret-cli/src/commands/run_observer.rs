@@ -9,9 +9,9 @@ use fret_core::run::{Iteration, Observer, Waypoint};
 use fret_core::study::StageQuantities;
 
 use crate::failure::Failure;
-use crate::output::ResultFolder;
 use crate::progress::Progress;
-use crate::tally::Tally;
+use fret_results::ResultFolder;
+use fret_results::Tally;
 
 /// Somebody else who hears about a run, and may stop it.
 pub type Guest<'a> = dyn Observer + Send + 'a;

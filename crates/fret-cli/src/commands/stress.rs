@@ -14,13 +14,13 @@ use serde_json::Value;
 use super::loaded_surfaces::{loaded_surfaces, reach, stopped};
 use super::stress_tables::{Answer, StressTables};
 use crate::arguments::StressArguments;
+use crate::export::volume::Volume;
 use crate::failure::{Failure, Unwritten};
 use crate::interrupt;
-use crate::output::folder_below;
-use crate::output::kept_run::KeptRun;
-use crate::output::vtk::Volume;
 use crate::terminal;
 use crate::threads;
+use fret_results::Results;
+use fret_results::folder_below;
 
 /// Depths chosen by `--auto`.
 const AUTOMATIC: usize = 64;
@@ -38,8 +38,8 @@ pub fn stress(arguments: &StressArguments, as_json: bool) -> Result<(), Failure>
 
 fn stress_of(arguments: &StressArguments, as_json: bool) -> Result<Value, Failure> {
     interrupt::listen();
-    let run = KeptRun::open(&arguments.folder)?;
-    if run.record["plan"]["case"]["wear"]["thinning_tolerance"].is_number() {
+    let run = Results::read(&arguments.folder)?;
+    if run.case().wear.as_ref().is_some_and(|wear| wear.thinning_tolerance.is_some()) {
         let why = "the layers of this run became thinner by wear (wear.thinning_tolerance), and stresses below are those of unworn layers";
         let way_out = "a case with the thinner coating, pressed alike".to_owned();
         return Err(Failure::Call(format!("{}: {why}", arguments.folder.display()), way_out));
@@ -54,8 +54,8 @@ fn stress_of(arguments: &StressArguments, as_json: bool) -> Result<Value, Failur
 }
 
 /// What the call asks for, or else the case.
-fn requested(arguments: &StressArguments, run: &KeptRun) -> StressRequest {
-    let mut request = run.stress.clone().unwrap_or_default();
+fn requested(arguments: &StressArguments, run: &Results) -> StressRequest {
+    let mut request = run.case().stress.clone().unwrap_or_default();
     if !arguments.depths.is_empty() {
         request.depths = Some(arguments.depths.clone());
     }
@@ -69,16 +69,18 @@ fn requested(arguments: &StressArguments, run: &KeptRun) -> StressRequest {
         Some("upper") => request.body = Side::Upper,
         Some(_) => request.body = Side::Lower,
         // without a word, a rigid lower body means the other one
-        None if run.stress.is_none() && *run.bodies.lower() == Body::Rigid => request.body = Side::Upper,
+        None if run.case().stress.is_none() && *run.case().bodies.lower() == Body::Rigid => {
+            request.body = Side::Upper
+        }
         None => {}
     }
     request.volume |= arguments.volume;
     request
 }
 
-fn computed(folder: &Path, run: &KeptRun, request: &StressRequest) -> Result<Answer, Failure> {
+fn computed(folder: &Path, run: &Results, request: &StressRequest) -> Result<Answer, Failure> {
     let started = Instant::now();
-    let Body::Elastic(half_space) = request.body.of(&run.bodies) else {
+    let Body::Elastic(half_space) = request.body.of(&run.case().bodies) else {
         let other = if request.body == Side::Lower { "upper" } else { "lower" };
         return Err(Failure::Call(
             format!("the {} body is rigid: there is no stress in it", request.body.name()),
@@ -97,12 +99,12 @@ fn computed(folder: &Path, run: &KeptRun, request: &StressRequest) -> Result<Ans
     let mut volume = if request.volume {
         let depths: Vec<f64> = points.iter().map(|point| point.depth).collect();
         let name = format!("volume-{:05}.vtr", surfaces.last().map_or(0, |surface| surface.increment));
-        Some(Volume::create(&place.join(name), &run.grid, &depths, &VOLUME_FIELDS, run.units.as_ref())?)
+        Some(Volume::create(&place.join(name), run.grid(), &depths, &VOLUME_FIELDS, run.units())?)
     } else {
         None
     };
     let mut unwritten = None;
-    survey(half_space, &run.grid, run.periodic, &points, &surfaces, |point, surface, field| {
+    survey(half_space, run.grid(), run.case().periodic, &points, &surfaces, |point, surface, field| {
         if interrupt::is_asked() {
             return false;
         }
@@ -141,8 +143,8 @@ fn fill(volume: &mut Volume, point: usize, field: &StressField) -> Result<(), Un
 
 /// Stresses of a run that has just ended, as its case asks.
 pub fn after_run(folder: &Path, quiet: bool) -> Result<(), Failure> {
-    let run = KeptRun::open(folder)?;
-    let Some(request) = run.stress.clone() else { return Ok(()) };
+    let run = Results::read(folder)?;
+    let Some(request) = run.case().stress.clone() else { return Ok(()) };
     let answer = computed(folder, &run, &request)?;
     if !quiet {
         terminal::answer(&answer.table)?;

@@ -11,11 +11,13 @@ use fret_core::subsurface::{DepthPoint, Largest, LoadedSurface, Measure, StressF
 use serde_json::{Value, json};
 
 use super::fatigue::{Fatigue, Finished, Picture};
+use super::stress_record::{LargestRecord, StressRecord};
+use crate::commands::stress_kinds::{kind_of_stress, stress_called};
+use crate::drawing::section::Section;
 use crate::failure::Failure;
 use crate::figures::{counted, duration, figure};
-use crate::output::kept_run::KeptRun;
-use crate::output::section::Section;
-use crate::output::{kind_of_stress, stress_called, write_whole};
+use fret_results::Results;
+use fret_results::write_whole;
 
 /// More sections than this are not drawn.
 const MOST_SECTIONS: usize = 12;
@@ -28,7 +30,7 @@ pub struct Answer {
 
 /// What is noted on the way, and written at the end.
 pub struct StressTables<'a> {
-    run: &'a KeptRun,
+    run: &'a Results,
     request: &'a StressRequest,
     half_space: &'a HalfSpace,
     points: &'a [DepthPoint],
@@ -46,7 +48,7 @@ pub struct StressTables<'a> {
 
 impl<'a> StressTables<'a> {
     pub fn new(
-        run: &'a KeptRun,
+        run: &'a Results,
         request: &'a StressRequest,
         (half_space, constants): (&'a HalfSpace, &'a LayerConstants),
         points: &'a [DepthPoint],
@@ -61,15 +63,15 @@ impl<'a> StressTables<'a> {
                 depth
             })
             .collect();
-        let row = run.grid.cells()[1] / 2;
-        let [first, last] = run.last_cycle;
+        let row = run.grid().cells()[1] / 2;
+        let ([first, last], cyclic) = run.last_cycle();
         let cycle: Vec<usize> = surfaces
             .iter()
             .enumerate()
             .filter(|(_, surface)| (first..=last).contains(&surface.increment))
             .map(|(index, _)| index)
             .collect();
-        let cycle = if run.cyclic { cycle } else { Vec::new() };
+        let cycle = if cyclic { cycle } else { Vec::new() };
         let fatigue = Some(Fatigue::new(run, half_space, constants, (points, surfaces), cycle, row));
         Self {
             run,
@@ -79,7 +81,7 @@ impl<'a> StressTables<'a> {
             surfaces,
             interfaces,
             largest: Vec::new(),
-            by_depth: head_by_depth(run.units.as_ref()),
+            by_depth: head_by_depth(run.units()),
             row,
             sections: vec![Vec::new(); surfaces.len()],
             fatigue,
@@ -107,7 +109,7 @@ impl<'a> StressTables<'a> {
                 None => self.largest.push(found),
             }
         }
-        let nx = self.run.grid.cells()[0];
+        let nx = self.run.grid().cells()[0];
         self.sections[surface].push((0..nx).map(|i| field.at(i, self.row).von_mises()).collect());
         if let Some(fatigue) = &mut self.fatigue {
             fatigue.look(point, surface, field);
@@ -116,47 +118,41 @@ impl<'a> StressTables<'a> {
 
     /// Where along x or y a largest value was found [length].
     fn place_of(&self, found: &Largest, axis: usize) -> f64 {
-        let grid = &self.run.grid;
+        let grid = self.run.grid();
         grid.centre(axis, found.cell[axis]) + found.off[axis] * grid.spacing()[axis]
     }
 
     pub fn written(mut self, place: &Path, wall_s: f64) -> Result<Answer, Failure> {
-        let largest: Vec<Value> = self
-            .largest
-            .iter()
-            .map(|found| {
-                json!({
-                    "measure": found.measure.name(),
-                    "value": found.value,
-                    "increment": found.increment,
-                    "x": self.place_of(found, 0),
-                    "y": self.place_of(found, 1),
-                    "depth": found.point.depth,
-                    "layer": self.layer_name(found.point.layer),
-                })
-            })
-            .collect();
-        let Self { fatigue, .. } = &mut self;
-        let fatigue = fatigue.take().map_or_else(|| Ok(Finished::default()), Fatigue::finished)?;
-        let record = json!({
-            "status": "computed",
-            "unfinished": self.run.unfinished,
-            "body": self.request.body.name(),
-            "units": self.run.units,
-            "increments": self.surfaces.iter().map(|surface| surface.increment).collect::<Vec<_>>(),
-            "depths": self.points.iter().map(|point| point.depth).collect::<Vec<_>>(),
-            "layers": self.points.iter().map(|point| point.layer).collect::<Vec<_>>(),
-            "largest": largest,
-            "fatigue": fatigue.fatigue,
-            "coating": fatigue.coating,
-            "wall_s": wall_s,
+        let largest = self.largest.iter().map(|found| LargestRecord {
+            measure: found.measure.name().to_owned(),
+            value: found.value,
+            increment: found.increment,
+            x: self.place_of(found, 0),
+            y: self.place_of(found, 1),
+            depth: found.point.depth,
+            layer: self.layer_name(found.point.layer),
+        });
+        let largest = largest.collect();
+        let fatigue = self.fatigue.take().map_or_else(|| Ok(Finished::default()), Fatigue::finished)?;
+        let record = json!(StressRecord {
+            status: "computed".to_owned(),
+            unfinished: self.run.unfinished(),
+            body: self.request.body.name().to_owned(),
+            units: self.run.units().cloned(),
+            increments: self.surfaces.iter().map(|surface| surface.increment).collect(),
+            depths: self.points.iter().map(|point| point.depth).collect(),
+            layers: self.points.iter().map(|point| point.layer).collect(),
+            largest,
+            fatigue: fatigue.fatigue,
+            coating: fatigue.coating,
+            wall_s,
         });
         write_whole(&place.join("stress.json"), format!("{record:#}\n").as_bytes())?;
         write_whole(&place.join("depths.csv"), self.by_depth.as_bytes())?;
         for (name, content) in &fatigue.files {
             write_whole(&place.join(name), content.as_bytes())?;
         }
-        self.draw(place, &self.run.grid.centres(0).to_vec(), &fatigue.pictures)?;
+        self.draw(place, &self.run.grid().centres(0).to_vec(), &fatigue.pictures)?;
         let table = self.table(place, &fatigue.table, wall_s);
         Ok(Answer { record, table })
     }
@@ -184,7 +180,7 @@ impl<'a> StressTables<'a> {
             let increment = self.surfaces[index].increment;
             last < MOST_SECTIONS || index == last || worst.is_some_and(|worst| worst.increment == increment)
         };
-        let title = if self.run.title.is_empty() { "contact" } else { &self.run.title };
+        let title = if self.run.case().title.is_empty() { "contact" } else { &self.run.case().title };
         let high = self.sections.iter().flatten().flatten().copied().fold(0.0, f64::max);
         for index in (0..=last).filter(|&index| is_shown(index)) {
             let increment = self.surfaces[index].increment;
@@ -194,7 +190,7 @@ impl<'a> StressTables<'a> {
                 title,
                 subject: &subject,
                 quantity: ("von Mises stress", "pressure"),
-                units: self.run.units.as_ref(),
+                units: self.run.units(),
                 x,
                 depths: &depths,
                 values: &self.sections[index],
@@ -210,7 +206,7 @@ impl<'a> StressTables<'a> {
                 title,
                 subject: &subject,
                 quantity: (&stress_called(name), kind_of_stress(name)),
-                units: self.run.units.as_ref(),
+                units: self.run.units(),
                 x,
                 depths: &depths,
                 values,
@@ -223,7 +219,7 @@ impl<'a> StressTables<'a> {
     }
 
     fn table(&self, place: &Path, fatigue: &str, wall_s: f64) -> String {
-        let unfinished = self.run.unfinished.as_ref().map_or(String::new(), |why| format!("{why}\n"));
+        let unfinished = self.run.unfinished().map_or(String::new(), |why| format!("{why}\n"));
         let mut text = unfinished
             + &format!(
                 "stress in the {} body: {} at {}, counted from 0\n\n",
@@ -231,7 +227,7 @@ impl<'a> StressTables<'a> {
                 counted(self.points.len(), "depth"),
                 counted(self.surfaces.len(), "increment"),
             );
-        let head = |name: &str, kind: &str| Units::heading(self.run.units.as_ref(), name, kind, false);
+        let head = |name: &str, kind: &str| Units::heading(self.run.units(), name, kind, false);
         let [value, x, y, depth] =
             [("value", "pressure"), ("x", "length"), ("y", "length"), ("depth", "length")]
                 .map(|(name, kind)| head(name, kind));

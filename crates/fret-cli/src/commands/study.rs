@@ -13,16 +13,16 @@ use fret_core::study::{
 use serde_json::{Value, json};
 
 use crate::arguments::StudyArguments;
-use crate::case_file::CaseFile;
 use crate::defect;
 use crate::failure::Failure;
 use crate::figures::{counted, duration};
 use crate::interrupt::{self, Listener};
-use crate::output::{folder_for_answers, write_whole};
 use crate::study::levels::{LEVELS, Levels};
 use crate::study::{picture, reference, table, words};
 use crate::terminal;
 use crate::threads;
+use fret_results::CaseFile;
+use fret_results::{folder_for_answers, write_whole};
 
 /// The answer, which marks its folder.
 const STUDY: &str = "study.json";

@@ -17,11 +17,11 @@ use crate::arguments::SweepArguments;
 use crate::failure::{Failure, Told};
 use crate::figures::{counted, duration};
 use crate::interrupt::{self, Listener};
-use crate::origin::Origin;
-use crate::output::stem;
 use crate::sweep::{Answer, Planned, Point, Question, SweepFolder};
 use crate::terminal;
 use crate::threads;
+use fret_results::Origin;
+use fret_results::stem;
 
 /// Solves all points of a sweep.
 pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
@@ -248,7 +248,10 @@ impl<'a> Board<'a> {
     fn plan(&self, point: &Point) -> Result<Plan, CaseError> {
         let mut is_alone = false;
         loop {
-            match point.case_file.planned_leaving_out(LeaveOut::ALL, self.origin.as_ref()) {
+            match point
+                .case_file
+                .planned_leaving_out(LeaveOut::ALL, self.origin.as_ref().map(|origin| &origin.start))
+            {
                 Err(error) if error.lacks_memory() && !is_alone => {
                     let at_work = self.at_work.lock().unwrap_or_else(PoisonError::into_inner);
                     is_alone = *at_work == 0;

@@ -8,6 +8,7 @@ pub mod frame;
 pub mod map;
 pub mod raster;
 pub mod scale;
+pub mod section;
 
 use maud::{Markup, html};
 

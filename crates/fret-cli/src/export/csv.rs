@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::{folder, written};
 use crate::failure::{Failure, Unwritten};
-use crate::results::{Field, Results};
+use fret_results::{Field, Results};
 
 /// Writes the results as CSV into a folder; the files.
 pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {

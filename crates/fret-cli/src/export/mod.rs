@@ -2,6 +2,7 @@
 
 pub mod csv;
 pub mod npz;
+pub mod volume;
 pub mod vtk;
 
 use std::fs::{self, File};
@@ -9,7 +10,7 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use crate::failure::{Failure, Unwritten};
-use crate::output::{new_file, part_of, refuse_link, resolved_path};
+use fret_results::{new_file, part_of, refuse_link, resolved_path};
 
 /// Writes a file in one go beside its place and renames it there: a reader never finds a part.
 fn written(

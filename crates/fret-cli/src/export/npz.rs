@@ -13,7 +13,7 @@ use zip::{CompressionMethod, ZipWriter};
 
 use super::written;
 use crate::failure::{Failure, Unwritten};
-use crate::results::{Results, kind_of_field};
+use fret_results::{Results, kind_of_field};
 
 /// Archives of more bytes need the wider form of the format.
 const WIDE: usize = 1 << 31;
@@ -79,7 +79,7 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
             words.extend(padded.flat_map(|letter| u32::from(letter).to_le_bytes()));
         }
         if let Some(units) = results.units() {
-            let words = units_in_json(results, &units);
+            let words = units_in_json(results, units);
             let letters: Vec<u8> = words.chars().flat_map(|letter| u32::from(letter).to_le_bytes()).collect();
             archive.array("units", &format!("<U{}", words.chars().count()), &[], &letters)?;
         }

@@ -10,7 +10,7 @@ use fret_core::case::Units;
 
 use super::{folder, written};
 use crate::failure::{Failure, Unwritten};
-use crate::results::{Field, Fields, Results, kind_of_field};
+use fret_results::{Field, Fields, Results, kind_of_field};
 
 /// Writes the results as VTK files into a folder; the files, the list of them first.
 pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
@@ -22,7 +22,7 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
     for (position, &step) in fields.steps.iter().enumerate() {
         let name = format!("fields_{step:06}.vti");
         let file = path.join(&name);
-        image(fields, position, &file, results.units().as_ref())?;
+        image(fields, position, &file, results.units())?;
         entries += &format!("    <DataSet timestep=\"{step}\" part=\"0\" file=\"{name}\"/>\n");
         files.push(file);
     }

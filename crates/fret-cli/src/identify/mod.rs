@@ -14,9 +14,9 @@ use fret_core::identify::{self, Identification, IdentifyError, Key};
 use serde_json::Value;
 use toml::Table;
 
-use crate::case_file::{Beside, CaseFile};
 use crate::failure::Failure;
 use crate::sweep::key;
+use fret_results::{Beside, CaseFile};
 
 /// What is asked of a log, and the key of the case that is fitted too, such as `lower.substrate.young`.
 #[derive(Debug, Clone, Default)]

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::{Answer, Request, identify};
-use crate::case_file::{Beside, CaseFile};
+use fret_results::{Beside, CaseFile};
 
 /// Two equal spheres of E = 210 GPa, nu = 0, pressed with 100 N: units mm and N.
 const CASE: &str = "[units]\nlength = \"mm\"\nforce = \"N\"\n[grid]\ncells = [24, 24]\nsize = \"auto\"\n[upper]\nsubstrate = { young = 210e3, poisson = 0.0 }\n\

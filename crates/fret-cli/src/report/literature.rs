@@ -1,10 +1,10 @@
 //! What to cite: the works whose methods and formulas stand behind this very page.
 
+use fret_core::model::{Body, Control};
+use fret_core::study::{PartialSlip, Pressed};
 use maud::{Markup, html};
 
-use super::closed_form::Pressed;
 use super::overview::Overview;
-use super::partial_slip::PartialSlip;
 
 const LAYERS: &str = "T. C. O'Sullivan, R. B. King: Sliding contact stress field due to a spherical indenter on a layered \
                       elastic half-space. J. Tribol. 110 (1988) 235–240.";
@@ -28,17 +28,18 @@ const DERESIEWICZ: &str = "R. D. Mindlin, H. Deresiewicz: Elastic spheres in con
                            Mech. 20 (1953) 327–344.";
 const NOWELL: &str =
     "D. Nowell, D. A. Hills: Mechanics of fretting fatigue tests. Int. J. Mech. Sci. 29 (1987) 355–365.";
+const SNEDDON: &str = "I. N. Sneddon: The relation between load and penetration in the axisymmetric Boussinesq problem for a punch of \
+                       arbitrary profile. Int. J. Engng Sci. 3 (1965) 47–57.";
 const JOHNSON: &str = "K. L. Johnson: Contact Mechanics. Cambridge University Press (1985).";
 
 /// The chapter.
 pub fn chapter(view: &Overview<'_>) -> Markup {
-    let coated = ["upper", "lower"].iter().any(|body| {
-        view.results
-            .planned::<Vec<serde_json::Value>>(&format!("/case/bodies/{body}/elastic/coatings"))
-            .is_some_and(|coatings| !coatings.is_empty())
-    });
-    let periodic = view.results.planned::<bool>("/case/periodic") == Some(true);
-    let pressed = view.normal_form.and_then(|form| form.under(1.0));
+    let case = view.results.case();
+    let coated = [case.bodies.upper(), case.bodies.lower()]
+        .iter()
+        .any(|body| matches!(body, Body::Elastic(half_space) if !half_space.coatings().is_empty()));
+    let periodic = case.periodic;
+    let pressed = view.normal_form.and_then(|form| form.under(Control::Force(1.0)));
     let partial_slip = view.tangential_form.is_some();
     let is_line = view.results.fields.is_line();
     let is_stretched = view
@@ -53,13 +54,14 @@ pub fn chapter(view: &Overview<'_>) -> Markup {
         (true, GRADIENTS),
         (view.direction.is_some(), FRETTING),
         (matches!(pressed, Some(Pressed::Sphere(_) | Pressed::Ellipsoid(_) | Pressed::Line(..))), HERTZ),
+        (matches!(pressed, Some(Pressed::Rounded(_) | Pressed::Flat(_) | Pressed::Cone(_))), SNEDDON),
         (partial_slip, CATTANEO),
         (partial_slip, MINDLIN),
         (is_stretched, NOWELL),
         (partial_slip && !is_line && !view.cycles().is_empty(), DERESIEWICZ),
         (pressed.is_some(), JOHNSON),
     ];
-    let version = view.results.record["version"].as_str().unwrap_or_default();
+    let version = &view.results.record.version;
     html! {
         section {
             h2 { "To cite" }

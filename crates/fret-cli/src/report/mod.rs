@@ -1,22 +1,20 @@
 //! A run in one page: HTML with its style, its drawings and its script inside, so that it needs neither network nor other files, and
 //! tells the browser to refuse both.
 //!
-//! From the ground: `html` (numbers and parts), `closed_form` and `partial_slip` (what theory says), `overview` (the run as a whole), `window` (what of
+//! From the ground: `html` (numbers and parts), `overview` (the run as a whole, and the closed forms that speak about it), `window` (what of
 //! the grid is shown), `chapters` (what the page tells), and the page itself here.
 
 mod chapters;
-mod closed_form;
 pub mod html;
 mod literature;
 mod overview;
-mod partial_slip;
 mod window;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::drawing;
 use crate::failure::Failure;
-use crate::results::Results;
+use fret_results::Results;
 use overview::Overview;
 
 /// The style of the page.

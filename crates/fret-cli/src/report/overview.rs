@@ -2,16 +2,18 @@
 
 use fret_core::case::Units;
 use fret_core::history::CycleRecord;
-use serde_json::Value;
+use fret_core::plan::Coupling;
+use fret_core::study::{Loaded, NormalForm, TangentialForm};
 
-use super::closed_form::NormalForm;
 use super::html::{given, number};
-use super::partial_slip::{TangentialForm, components};
 use crate::drawing::scale::Label;
-use crate::results::Results;
+use fret_results::Results;
 
 /// Share of the largest force below which there is none.
 const NOTHING: f64 = 1e-9;
+
+/// The same of a change of the load, or of a load across, that a closed form may neglect.
+const STEADY: f64 = 1e-4;
 
 /// With more cycles a chart over the increments is a block of colour.
 const MANY_CYCLES: usize = 20;
@@ -35,8 +37,6 @@ pub struct Overview<'a> {
     pub twists: bool,
     /// Increments of each stage: first, and one after the last.
     pub spans: Vec<[usize; 2]>,
-    /// Units that the case declares.
-    pub units: Option<Units>,
 }
 
 /// A cycle of a stage.
@@ -51,31 +51,31 @@ impl<'a> Overview<'a> {
     pub fn of(results: &'a Results) -> Self {
         let table = &results.table;
         let direction = direction(results);
-        let normal_form = NormalForm::of(results);
-        let [tangential, _] = components(results, direction.unwrap_or([1.0, 0.0]));
         let [cosine, sine] = direction.unwrap_or([1.0, 0.0]);
+        let history = history(results);
+        // A state to start from may be worn, which a plan that was read back does not tell.
+        let is_worn = table.column("max_worn_depth").iter().any(|depth| *depth > 0.0);
+        let normal_form = NormalForm::of(results.plan()).filter(|_| !is_worn);
         let shifts = table.column("shift_x").iter().zip(table.column("shift_y"));
-        let tangential_form = normal_form
-            .as_ref()
-            .zip(direction)
-            .and_then(|(normal, direction)| TangentialForm::of(results, normal, direction));
+        let tangential_form = normal_form.as_ref().zip(direction).and_then(|(normal, direction)| {
+            TangentialForm::of(results.plan(), normal, (direction, &history), STEADY)
+        });
         Self {
             results,
             direction,
-            tangential,
+            tangential: history.iter().map(|loaded| loaded.components([cosine, sine])[0]).collect(),
             shift: shifts.map(|(x, y)| cosine * x + sine * y).collect(),
             normal_form,
             tangential_form,
             twists: twists(results),
-            spans: spans(table.column("stage"), results.stages().len()),
-            units: results.planned("/case/units"),
+            spans: spans(table.column("stage"), results.case().stages.len()),
         }
     }
 
     /// The unit of a kind of quantity such as `force x length`, where the case declares units.
     pub fn unit(&self, kind: &str) -> Option<String> {
         let is_line = self.results.fields.is_line();
-        let unit = self.units.as_ref()?.of(if is_line { Units::per_length(kind) } else { kind });
+        let unit = self.results.units()?.of(if is_line { Units::per_length(kind) } else { kind });
         Some(unit.replace("^2", "²").replace("^3", "³"))
     }
 
@@ -101,28 +101,27 @@ impl<'a> Overview<'a> {
 
     /// Whether there is no friction, and so neither stick nor slip.
     pub fn is_frictionless(&self) -> bool {
-        self.results.record["plan"]["coupling"] == "frictionless"
+        self.results.is_frictionless()
     }
 
     /// Whether the contact grows while pressure and shear act on each other: then each increment shows in the shear.
     pub fn grows_with_friction(&self) -> bool {
-        self.results.record["plan"]["coupling"] == "coupled"
+        self.results.plan().coupling == Coupling::Coupled
     }
 
     /// What bounds shear in an increment: friction coefficient and shear strength, where they are the same everywhere.
     pub fn friction_at(&self, increment: usize) -> Option<(f64, Option<f64>)> {
-        if self.results.planned::<Value>("/case/friction_evolution").is_some_and(|law| !law.is_null()) {
+        let case = self.results.case();
+        if case.friction_evolution.is_some() {
             return None;
         }
         let (stage, _) = self.place(increment);
-        let of_stage = format!("/case/stages/{stage}/friction");
-        let changed = self.results.planned::<Value>(&of_stage).is_some_and(|friction| !friction.is_null());
-        let rule: Value = self.results.planned(if changed { &of_stage } else { "/case/friction" })?;
-        let coefficient = rule["coefficient"]["uniform"].as_f64().filter(|coefficient| *coefficient > 0.0)?;
-        if rule["max_shear"].is_null() {
-            return Some((coefficient, None));
+        let rule = case.stages.get(stage)?.friction.as_ref().unwrap_or(&case.friction);
+        let coefficient = rule.coefficient().uniform().filter(|coefficient| *coefficient > 0.0)?;
+        match rule.max_shear() {
+            None => Some((coefficient, None)),
+            Some(strength) => Some((coefficient, Some(strength.uniform()?))),
         }
-        Some((coefficient, Some(rule["max_shear"]["uniform"].as_f64()?)))
     }
 
     /// The tangential load: force and motion of the loop, or moment and rotation where that is what moves.
@@ -151,7 +150,7 @@ impl<'a> Overview<'a> {
 
     /// Name of a stage.
     pub fn stage_name(&self, stage: usize) -> String {
-        self.results.stages().get(stage).cloned().unwrap_or_default()
+        self.results.case().stages.get(stage).map_or_else(String::new, |stage| stage.name.clone())
     }
 
     /// The stage of an increment, and its number in it from 1.
@@ -193,12 +192,9 @@ impl<'a> Overview<'a> {
     pub fn cycles(&self) -> Vec<Cycle> {
         let mut cycles = Vec::new();
         for (stage, [first, end]) in self.spans.iter().copied().enumerate() {
-            let counts = |name: &str| {
-                self.results
-                    .planned::<usize>(&format!("/case/stages/{stage}/{name}"))
-                    .filter(|&count| count > 0)
-            };
-            if let (Some(_), Some(length)) = (counts("course/cycles/most"), counts("increments")) {
+            let stage = self.results.case().stages.get(stage);
+            if let Some(stage) = stage.filter(|stage| stage.cycles().is_some() && stage.increments > 0) {
+                let length = stage.increments;
                 cycles.extend(
                     (1..=(end - first) / length).map(|number| Cycle {
                         span: [first + (number - 1) * length, first + number * length],
@@ -237,6 +233,21 @@ impl<'a> Overview<'a> {
         chosen.dedup();
         chosen
     }
+}
+
+/// What acts at the end of every increment.
+fn history(results: &Results) -> Vec<Loaded> {
+    let table = &results.table;
+    let at = |name: &str, row: usize| table.column(name).get(row).copied().unwrap_or(0.0);
+    let along = |name: &str, row: usize| ["x", "y"].map(|axis| at(&format!("{name}_{axis}"), row));
+    let loaded = |row: usize| Loaded {
+        normal: at("normal_force", row),
+        tangential: along("tangential_force", row),
+        twists: at("twist", row) != 0.0,
+        bulk_stress: ["bulk_stress", "upper_bulk_stress"].map(|name| along(name, row)),
+        slides: table.regimes().get(row).is_some_and(|regime| regime == "gross_slip"),
+    };
+    (0..table.rows()).map(loaded).collect()
 }
 
 /// Whether moment times twist is more than force times shift along either axis, range by range.

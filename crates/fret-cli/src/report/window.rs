@@ -1,7 +1,7 @@
 //! The part of the grid that maps show, and the line through it that sections follow.
 
 use super::overview::Overview;
-use crate::results::Field;
+use fret_results::Field;
 
 /// Cells around the contact that are shown.
 const MARGIN: usize = 2;

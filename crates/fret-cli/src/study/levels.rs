@@ -8,7 +8,7 @@ use fret_core::plan::Plan;
 use fret_core::study::Level;
 
 use crate::failure::{Failure, Unwritten};
-use crate::output::{folder_below, question, read_packed, write_packed};
+use fret_results::{folder_below, question, read_packed, write_packed};
 
 /// Name of the folder.
 pub const LEVELS: &str = "levels";
@@ -33,7 +33,7 @@ impl Levels {
 
     /// Writes a finished level down.
     pub fn keep(&self, plan: &Plan, level: &Level) -> Result<(), Failure> {
-        write_packed(&self.place(plan), FIRST_LINE, postcard::to_stdvec(level).ok())
+        Ok(write_packed(&self.place(plan), FIRST_LINE, postcard::to_stdvec(level).ok())?)
     }
 
     /// The study is finished: its answer stands in its own files.

@@ -7,7 +7,7 @@ use fret_core::study::{Quantity, Reference};
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::case_file::CaseFile;
+use fret_results::CaseFile;
 
 /// What may stand in the file.
 #[derive(Debug, Deserialize)]

@@ -6,14 +6,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use fret_core::case::{Units, content};
-use fret_core::history::{CYCLE_COLUMNS, STEP_COLUMNS};
+use fret_core::history::{self, CYCLE_COLUMNS, Column, CycleRecord, STEP_COLUMNS, StepRecord};
 use fret_core::model::digest;
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
 
 use crate::failure::{Failure, Unwritten};
-use crate::origin::Origin;
-use crate::output::{folder_below, resolved_path, write_whole};
 use crate::sweep::{Answer, Point, Question, Spread};
+use fret_results::Origin;
+use fret_results::{folder_below, resolved_path, write_whole};
 
 /// Version of the folder's format.
 const FORMAT: u32 = 1;
@@ -50,6 +51,17 @@ const CYCLE: [&str; 9] = [
     "max_worn_depth",
 ];
 
+/// A finished point, as it is written down.
+#[derive(Serialize, Deserialize)]
+struct Kept {
+    #[serde(flatten)]
+    answer: Answer,
+    format: u32,
+    version: String,
+    values: Map<String, Value>,
+    case: String,
+}
+
 /// The folder of a sweep.
 #[derive(Debug)]
 pub struct SweepFolder {
@@ -82,8 +94,8 @@ impl SweepFolder {
     /// The answer of a finished point; a file that cannot be read is no answer.
     pub fn finished(&self, point: &Point) -> Option<Answer> {
         let text = fs::read(self.place(point)).ok()?;
-        let answer: Value = serde_json::from_slice(&text).ok()?;
-        (answer["format"] == FORMAT && answer["status"].is_string()).then_some(Answer(answer))
+        let kept: Kept = serde_json::from_slice(&text).ok()?;
+        (kept.format == FORMAT && kept.answer.is_whole()).then_some(kept.answer)
     }
 
     /// Writes a finished point down, whole or not at all.
@@ -91,13 +103,14 @@ impl SweepFolder {
     /// # Errors
     /// When the file cannot be written.
     pub fn keep(&self, keys: &[String], point: &Point, answer: &Answer) -> Result<(), Unwritten> {
-        let mut value = answer.0.clone();
-        value["format"] = json!(FORMAT);
-        value["version"] = json!(env!("CARGO_PKG_VERSION"));
-        value["values"] =
-            keys.iter().zip(&point.values).map(|(key, value)| (key.clone(), plain(value))).collect();
-        value["case"] = json!(point.case_file.text);
-        write_whole(&self.place(point), format!("{value:#}\n").as_bytes())
+        let kept = Kept {
+            answer: answer.clone(),
+            format: FORMAT,
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            values: keys.iter().zip(&point.values).map(|(key, value)| (key.clone(), plain(value))).collect(),
+            case: point.case_file.text.clone(),
+        };
+        write_whole(&self.place(point), format!("{:#}\n", json!(kept)).as_bytes())
     }
 
     /// Writes the summary of what is finished.
@@ -107,32 +120,25 @@ impl SweepFolder {
     pub fn summarise(&self, question: &Question, answers: &[Option<Answer>]) -> Result<PathBuf, Unwritten> {
         let units = question.points.first().and_then(|point| units_of(&point.case_file.text));
         let heading = |name: &str, kind: &str| Units::heading(units.as_ref(), name, kind, false);
-        let kind = |name: &str| {
-            STEP_COLUMNS.iter().find(|column| column.name == name).map_or("", |column| column.unit)
-        };
-        let of_cycle = |name: &str| {
-            CYCLE_COLUMNS.iter().find(|column| column.name == name).map_or("", |column| column.unit)
-        };
-        let cycle = CYCLE.iter().map(|name| heading(&format!("cycle_{name}"), of_cycle(name)));
+        let cycle = of_cycle().map(|column| heading(&format!("cycle_{}", column.name), column.unit));
         let head = ["point".to_owned()].into_iter().chain(question.keys.iter().cloned());
-        let head =
-            head.chain(["status".to_owned()]).chain(END.map(|name| heading(name, kind(name)))).chain(cycle);
+        let head = head
+            .chain(["status".to_owned()])
+            .chain(at_end().map(|column| heading(column.name, column.unit)))
+            .chain(cycle);
         let mut text =
             head.chain(["message".to_owned()]).map(|cell| quoted(&cell)).collect::<Vec<_>>().join(",") + "\n";
         for (number, (point, answer)) in question.points.iter().zip(answers).enumerate() {
-            let Some(Answer(answer)) = answer else { continue };
+            let Some(answer) = answer else { continue };
             let _ = write!(text, "{number}");
             for value in point.values.iter().map(plain) {
                 let _ = write!(text, ",{}", cell(&value));
             }
-            let _ = write!(text, ",{}", cell(&answer["status"]));
-            for name in END {
-                let _ = write!(text, ",{}", cell(at_end(answer, name)));
+            let _ = write!(text, ",{}", cell(&json!(answer.status())));
+            for value in values(answer) {
+                let _ = write!(text, ",{}", cell(&value));
             }
-            for name in CYCLE {
-                let _ = write!(text, ",{}", cell(&answer["cycle"][name]));
-            }
-            let _ = writeln!(text, ",{}", cell(&answer["message"]));
+            let _ = writeln!(text, ",{}", cell(&json!(answer.message())));
         }
         let path = self.path.join(SUMMARY);
         write_whole(&path, text.as_bytes())?;
@@ -149,19 +155,18 @@ impl SweepFolder {
         answers: &[Option<Answer>],
     ) -> Result<Option<String>, Unwritten> {
         let Some(design) = &question.design else { return Ok(None) };
-        let column = |of: &dyn Fn(&Value) -> Option<f64>| -> Vec<f64> {
-            let value = |answer: &Option<Answer>| answer.as_ref().and_then(|answer| of(&answer.0));
-            answers.iter().map(|answer| value(answer).unwrap_or(f64::NAN)).collect()
-        };
-        let end = END.map(|name| (name.to_owned(), column(&|answer| at_end(answer, name).as_f64())));
-        let cycle =
-            CYCLE.map(|name| (format!("cycle_{name}"), column(&|answer| answer["cycle"][name].as_f64())));
+        let rows: Vec<Option<Vec<Value>>> =
+            answers.iter().map(|answer| answer.as_ref().map(values)).collect();
+        let at = |place: usize| rows.iter().map(move |row| row.as_ref()?.get(place)?.as_f64());
+        let names = at_end().map(|column| column.name.to_owned());
+        let names = names.chain(of_cycle().map(|column| format!("cycle_{}", column.name)));
+        let column = |place: usize| at(place).map(|value| value.unwrap_or(f64::NAN)).collect();
+        let columns: Vec<_> = names.enumerate().map(|(place, name)| (name, column(place))).collect();
         let keys = question.drawn_keys();
         let beside = question.keys.len() - keys.len();
         let firsts = question.points.iter().step_by(design.points().max(1));
         let at =
             firsts.map(|point| question.keys.iter().cloned().zip(point.values[..beside].to_vec()).collect());
-        let columns: Vec<_> = end.into_iter().chain(cycle).collect();
         let spread = Spread::new(keys, design, at.collect(), &columns);
         write_whole(&self.path.join(UNCERTAINTY), format!("{:#}\n", spread.to_json()).as_bytes())?;
         Ok(Some(spread.table()))
@@ -178,11 +183,32 @@ impl SweepFolder {
     }
 }
 
-/// A number of the last increment of an answer, by its name in `history.csv`.
-fn at_end<'a>(answer: &'a Value, name: &str) -> &'a Value {
-    let axis =
-        name.strip_suffix("_x").map(|stem| (stem, 0)).or(name.strip_suffix("_y").map(|stem| (stem, 1)));
-    axis.map_or(&answer["end"][name], |(stem, axis)| &answer["end"][stem][axis])
+/// Columns of the last increment.
+fn at_end() -> impl Iterator<Item = &'static Column<StepRecord>> {
+    END.iter().filter_map(|name| STEP_COLUMNS.iter().find(|column| column.name == *name))
+}
+
+/// Columns of the last cycle.
+fn of_cycle() -> impl Iterator<Item = &'static Column<CycleRecord>> {
+    CYCLE.iter().filter_map(|name| CYCLE_COLUMNS.iter().find(|column| column.name == *name))
+}
+
+/// Values of all columns; null where an answer has none.
+fn values(answer: &Answer) -> Vec<Value> {
+    fn told<R>(column: &Column<R>, record: Option<&R>) -> Value {
+        let Some(record) = record else { return Value::Null };
+        match column.value {
+            history::Value::Count(of) => json!(of(record)),
+            history::Value::Real(of) => json!(of(record)),
+            history::Value::RealOrNone(of) => json!(of(record)),
+            history::Value::Truth(of) => json!(of(record)),
+            history::Value::Word(of) => json!(of(record)),
+        }
+    }
+    let numbers = answer.numbers.as_ref();
+    let end = at_end().map(|column| told(column, numbers.and_then(|numbers| numbers.end.as_ref())));
+    let cycle = of_cycle().map(|column| told(column, numbers.and_then(|numbers| numbers.cycle.as_ref())));
+    end.chain(cycle).collect()
 }
 
 /// Units that the text of a case declares. Of a line contact, whose grid is not known here, none are told.

@@ -7,8 +7,8 @@ use fret_core::plan::{LeaveOut, Plan};
 use fret_core::run::{InCommon, beginnings};
 
 use crate::interrupt;
-use crate::origin::Origin;
 use crate::sweep::Point;
+use fret_results::Origin;
 
 /// Points, planned once.
 pub struct Planned {
@@ -26,7 +26,10 @@ impl Planned {
             if open.len() < 2 || interrupt::is_asked() {
                 return None;
             }
-            let plan = points[*number].case_file.planned_leaving_out(LeaveOut::ALL, origin).ok()?;
+            let plan = points[*number]
+                .case_file
+                .planned_leaving_out(LeaveOut::ALL, origin.map(|origin| &origin.start))
+                .ok()?;
             let beginnings = beginnings(&plan);
             let is_small = plan.case.profile.heights.is_empty() && !plan.case.friction.is_map();
             Some(((*number, beginnings), is_small.then_some((*number, plan))))

@@ -10,9 +10,9 @@ use fret_core::uncertainty::SampleDesign;
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
-use crate::case_file::CaseFile;
 use crate::sweep::drawn::{Drawn, KINDS};
 use crate::sweep::key::put;
+use fret_results::CaseFile;
 
 /// More mistakes than this are not told.
 const MOST_MISTAKES: usize = 30;

@@ -195,7 +195,8 @@ fn a_table_that_is_removed_during_the_run_is_missed() {
     use fret_core::history::{KeptFields, StepRecord};
     use fret_core::model::MirroredState;
     use fret_core::run::{Iteration, Observer};
-    use fretting_cli::embedded::{CaseText, Earlier, Stopped, run_into};
+    use fret_results::{Beside, CaseFile, Wish};
+    use fretting_cli::embedded::{Failure, run_into};
     use std::ops::ControlFlow;
     use std::path::PathBuf;
 
@@ -220,17 +221,13 @@ fn a_table_that_is_removed_during_the_run_is_missed() {
     let bench = Bench::new("removed-meanwhile");
     for (name, part) in [("one", "history.csv"), ("two", "fields.zarr/pressure/c/0/0/0")] {
         let folder = bench.folder.join(name);
-        let case = CaseText {
-            text: SPHERE.to_owned(),
-            name: "case".to_owned(),
-            is_file: false,
-            folder: bench.folder.clone(),
-            contents: Vec::new(),
-        };
+        let beside = Beside { folder: bench.folder.clone(), contents: Vec::new() };
+        let case = CaseFile::of_text("case", SPHERE.to_owned(), beside);
         let mut remover = Remover(folder.join(part));
-        let ended = run_into(case, None, &folder, (Earlier::Keep, false, Some(1)), &mut remover);
-        let Err(Stopped::Unwritten(path, why)) = ended else { panic!("{part}: {ended:?}") };
-        assert!(path == folder.join(part) && why.contains("removed or changed"), "{why}");
+        let ended = run_into(case, None, &folder, (Wish::Start, false, Some(1)), &mut remover);
+        let Err(Failure::Unwritten(unwritten)) = ended else { panic!("{part}: {ended:?}") };
+        let why = unwritten.to_string();
+        assert!(unwritten.path == folder.join(part) && why.contains("removed or changed"), "{why}");
         assert!(bench.text(&format!("{name}/run.json")).contains("\"status\": \"failed\""));
     }
 }

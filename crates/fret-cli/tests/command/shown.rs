@@ -202,6 +202,32 @@ fn the_page_compares_with_the_closed_form() {
     assert!((-3.3..-2.3).contains(&off), "{off} %");
 }
 
+/// A run that starts from a tilted state is no contact of Hertz, though no stage of its own case tilts; one that starts from a state with
+/// slip is one, but no first loading of Cattaneo's.
+#[test]
+fn what_a_run_starts_from_is_asked_before_a_closed_form_is_drawn() {
+    let bench = Bench::new("report-started");
+    let (head, _) = SPHERE.split_once("[[load]]").unwrap();
+    let head = head.replace("rigid = true", "substrate = { young = 210e9, poisson = 0.3 }");
+    let solve = |name: &str, stages: &str, more: &[&str]| {
+        let file = format!("{name}.toml");
+        bench.file(&file, &format!("{head}{stages}"));
+        let answer = bench.fret(&[&["run", &file, "--out", name, "--quiet"], more].concat());
+        assert_eq!(answer.code, Some(0), "{name}: {}", answer.err);
+        assert_eq!(bench.fret(&["report", name, "--out", "page.html"]).code, Some(0));
+        let page = bench.text("page.html");
+        ["<td>max pressure</td>", "<td>radius of stick</td>"].map(|row| page.contains(row))
+    };
+    let press = |more: &str| format!("[[load]]\nnormal_force = 1.0\n{more}\nincrements = 3\n");
+    let rub = "[[load]]\ntangential_force = [0.05, 0.0]\nincrements = 4\n";
+    assert_eq!(solve("plain", &(press("") + rub), &[]), [true, true]);
+    assert_eq!(solve("flat", &press(""), &[]), [true, false]);
+    assert_eq!(solve("tilted", &press("tilt = [1e-3, \"held\"]"), &[]), [false, false]);
+    assert_eq!(solve("from-tilted", rub, &["--from", "tilted"]), [false, false]);
+    let back = "[[load]]\ntangential_force = [-0.02, 0.0]\nincrements = 2\n";
+    assert_eq!(solve("from-slipped", back, &["--from", "plain"]), [true, false]);
+}
+
 #[test]
 fn a_run_that_is_not_solved_is_shown_as_far_as_it_came() {
     let bench = solved("report-part");

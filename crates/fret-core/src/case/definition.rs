@@ -1,6 +1,6 @@
 //! A case: the whole question, checked.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::output::Output;
 use super::refusal::{CaseError, Difference};
@@ -10,14 +10,14 @@ use crate::document::Mistake;
 use crate::kernel::uniform_response;
 use crate::model::stage::Stage;
 use crate::model::{
-    Beyond, Conduction, ContactPair, CoulombFriction, FrictionEvolution, Integration, LoadStep, Profile,
-    ResidualStress, Rig, Scheme, WearRule,
+    Beyond, CellMap, Conduction, ContactPair, CoulombFriction, FrictionEvolution, Heights, HeightsSummary,
+    Integration, LoadStep, MapSummary, Profile, ResidualStress, Rig, Scheme, WearRule,
 };
 use crate::subsurface::fatigue::LayerConstants;
 
-/// A case that has passed every check.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Case {
+/// A case that has passed every check; with its maps and heights, or as a record of a run has it ([`CaseRecord`]).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Case<M = CellMap, H = Heights> {
     /// Title, or an empty text.
     pub title: String,
     /// Units that the case declares.
@@ -31,25 +31,25 @@ pub struct Case {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub datum: Option<f64>,
     /// What lies beyond the edge of the grid.
-    #[serde(skip_serializing_if = "Beyond::is_body")]
+    #[serde(default, skip_serializing_if = "Beyond::is_body")]
     pub beyond: Beyond,
     /// Whether the problem is periodic in x and y.
     pub periodic: bool,
     /// The two bodies.
     pub bodies: ContactPair,
     /// Residual stress of the lower and of the upper body.
-    #[serde(skip_serializing_if = "are_none")]
+    #[serde(default, skip_serializing_if = "are_none")]
     pub residual_stress: [ResidualStress; 2],
     /// Constants for fatigue and fracture of the layers of the lower and of the upper body.
-    #[serde(skip_serializing_if = "have_no_constants")]
+    #[serde(default, skip_serializing_if = "have_no_constants")]
     pub fatigue: [LayerConstants; 2],
     /// What the bodies conduct, and how often they rub.
-    #[serde(skip_serializing_if = "Conduction::is_none")]
+    #[serde(default, skip_serializing_if = "Conduction::is_none")]
     pub conduction: Conduction,
     /// Undeformed gap.
-    pub profile: Profile,
+    pub profile: Profile<H>,
     /// Friction law at the start; stages may change it.
-    pub friction: CoulombFriction,
+    pub friction: CoulombFriction<M>,
     /// How the friction coefficient evolves, where it does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction_evolution: Option<FrictionEvolution>,
@@ -63,7 +63,7 @@ pub struct Case {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub start: Option<LoadStep>,
     /// Loading history.
-    pub stages: Vec<Stage>,
+    pub stages: Vec<Stage<M>>,
     /// How the surfaces wear, when they do.
     pub wear: Option<WearRule>,
     /// Bound on the residual of every increment.
@@ -80,6 +80,9 @@ pub struct Case {
     #[serde(skip)]
     pub(crate) origin: Origin,
 }
+
+/// A case as a record of a run has it: with what tells its maps and heights apart.
+pub type CaseRecord = Case<MapSummary, HeightsSummary>;
 
 fn are_none(residual: &[ResidualStress; 2]) -> bool {
     residual.iter().all(ResidualStress::is_none)
@@ -98,7 +101,7 @@ pub(crate) struct Origin {
 }
 
 /// Side lengths of the grid.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GridSize {
     /// Given [length]; of a line contact, the length and the width of one strip.
@@ -126,6 +129,38 @@ impl GridSize {
     }
 }
 
+impl<M, H> Case<M, H> {
+    /// Whether it is a line contact: plane strain across a line along y, all loads per unit length.
+    pub fn is_line(&self) -> bool {
+        self.cells[1] == 1
+    }
+
+    /// Springs between the upper body and what is driven.
+    pub fn springs(&self) -> Rig {
+        self.rig.unwrap_or(Rig::RIGID)
+    }
+
+    /// Whether the upper body is tilted along an axis (0: x, 1: y) by any stage, or where the history starts.
+    pub fn tilts(&self, axis: usize) -> bool {
+        let starts = self.start.is_some_and(|loads| loads.tilt[axis] != LoadStep::FREE.tilt[axis]);
+        starts || self.stages.iter().any(|stage| stage.tilt[axis].is_some())
+    }
+
+    /// Whether the history may end before all its increments: a stage that stops when it is steady, cycle jumps, or wear up to a
+    /// limit.
+    pub fn is_open_ended(&self) -> bool {
+        let steady = |stage: &Stage<M>| stage.cycles().is_some_and(|cycles| cycles.until_steady.is_some());
+        self.stages.iter().any(steady)
+            || self.friction_evolution.as_ref().is_some_and(|evolution| evolution.every > 1)
+            || self.wear.as_ref().is_some_and(|wear| wear.every > 1 || wear.limit.is_some())
+    }
+
+    /// Increments of the whole history, at the most.
+    pub fn increments(&self) -> usize {
+        self.stages.iter().map(Stage::increments_in_all).sum()
+    }
+}
+
 impl Case {
     /// What helps a contact that reaches the edge of the grid: heights end there, neither they nor a map grow with it, and an automatic size
     /// has been tried where it is written.
@@ -146,22 +181,6 @@ impl Case {
     /// What helps where friction does not carry the tangential force.
     pub(crate) fn way_to_slide(&self) -> &'static str {
         way_to_slide(self.periodic, Some(&self.bodies))
-    }
-
-    /// Whether it is a line contact: plane strain across a line along y, all loads per unit length.
-    pub fn is_line(&self) -> bool {
-        self.cells[1] == 1
-    }
-
-    /// Springs between the upper body and what is driven.
-    pub fn springs(&self) -> Rig {
-        self.rig.unwrap_or(Rig::RIGID)
-    }
-
-    /// Whether the upper body is tilted along an axis (0: x, 1: y) by any stage, or where the history starts.
-    pub fn tilts(&self, axis: usize) -> bool {
-        let starts = self.start.is_some_and(|loads| loads.tilt[axis] != LoadStep::FREE.tilt[axis]);
-        starts || self.stages.iter().any(|stage| stage.tilt[axis].is_some())
     }
 
     /// Whether there is no friction anywhere in the whole history.
@@ -214,20 +233,6 @@ impl Case {
             before += all;
         }
         kept
-    }
-
-    /// Whether the history may end before all its increments: a stage that stops when it is steady, cycle jumps, or wear up to a
-    /// limit.
-    pub fn is_open_ended(&self) -> bool {
-        let steady = |stage: &Stage| stage.cycles().is_some_and(|cycles| cycles.until_steady.is_some());
-        self.stages.iter().any(steady)
-            || self.friction_evolution.as_ref().is_some_and(|evolution| evolution.every > 1)
-            || self.wear.as_ref().is_some_and(|wear| wear.every > 1 || wear.limit.is_some())
-    }
-
-    /// Increments of the whole history, at the most.
-    pub fn increments(&self) -> usize {
-        self.stages.iter().map(Stage::increments_in_all).sum()
     }
 }
 

@@ -7,7 +7,7 @@ use super::judge::Judge;
 use super::stage_file::StageFile;
 use super::surface_file::{CoefficientFile, FrictionFile, MapFile};
 use crate::document::At;
-use crate::model::{CellValues, CoulombFriction, FrictionError};
+use crate::model::{CellMap, CellValues, CoulombFriction, FrictionError};
 
 /// The law the history starts with; `None` when something about it was refused.
 pub(super) fn friction(
@@ -97,7 +97,7 @@ fn map(
         MapFile::File(name) => arrays::of_file(judge, place, span.clone(), name),
         MapFile::Array(array) => arrays::given(judge, place, span.clone(), array),
     }?;
-    arrays::fitting(judge, cells, (place, span), array, Layout::XY).map(CellValues::Map)
+    arrays::fitting(judge, cells, (place, span), array, Layout::XY).map(|map| CellValues::Map(CellMap(map)))
 }
 
 fn accepted(

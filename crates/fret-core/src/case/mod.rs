@@ -51,7 +51,7 @@ pub(crate) use crate::model::stage::walk;
 pub use crate::model::stage::{Course, Cycles, Path, Stage, StageControl};
 pub use crate::model::waveform::{CycleTimes, Waveform};
 pub use attachments::{Attachments, content, unreadable};
-pub use definition::{Case, GridSize};
+pub use definition::{Case, CaseRecord, GridSize};
 pub use file::schema;
 pub use heading::Heading;
 pub use known_units::{Conversion, UnitError, conversion, is_unit, known_units};

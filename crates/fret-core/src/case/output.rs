@@ -1,12 +1,12 @@
 //! What of the solution is kept.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Fields that can be kept, by the names of the case file.
 pub const FIELD_NAMES: [&str; 7] = ["pressure", "shear", "slip", "gap", "zone", "worn_depth", "friction"];
 
 /// What of the solution is kept.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Output {
     /// Names out of [`FIELD_NAMES`].
     pub fields: Vec<String>,

@@ -157,19 +157,21 @@ impl History {
 }
 
 /// What is worn through.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum WornTo {
     /// A coating, outermost of its body.
     Coating,
     /// The depth at which the run ends.
+    #[default]
     Limit,
 }
 
 /// The first place at which the surfaces are worn through a coating, or to the limit where that comes first.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct WornThrough {
-    /// What is worn through.
+    /// What is worn through. Earlier builds knew the limit alone, and did not say it.
+    #[serde(default)]
     pub to: WornTo,
     /// Increment after which it happened, from 0.
     pub increment: usize,

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::accumulated::AccumulatedSlip;
-use super::friction::{CellValues, CoulombFriction};
+use super::friction::{CellMap, CellValues, CoulombFriction};
 use crate::document::Table;
 
 /// What the friction coefficient follows.
@@ -24,7 +24,7 @@ pub enum EvolutionDriver {
 }
 
 /// The coefficient over its driver `x`, from what it was at the start.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EvolutionLaw {
     /// `last + (first - last) exp(-x / scale)`.
@@ -39,7 +39,7 @@ pub enum EvolutionLaw {
 }
 
 /// How friction evolves, and how many cycles a computed one stands for.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FrictionEvolution {
     /// What the coefficient follows.
     pub by: EvolutionDriver,
@@ -115,9 +115,9 @@ impl FrictionEvolution {
             (CellValues::Uniform(first), Driver::Everywhere(driver)) => {
                 CellValues::Uniform(self.law.at(*first, driver))
             }
-            (_, driver) => CellValues::Map(Array2::from_shape_fn(slip.distance.dim(), |(i, j)| {
+            (_, driver) => CellValues::Map(CellMap(Array2::from_shape_fn(slip.distance.dim(), |(i, j)| {
                 self.law.at(first.at(i, j), driver.at(i, j))
-            })),
+            }))),
         };
         first.with_coefficient(evolved)
     }

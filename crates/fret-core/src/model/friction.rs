@@ -1,7 +1,7 @@
 //! Parameters of Coulomb's law of dry friction, with a shear strength of the interface. What they bound: `solver/laws/friction.rs`.
 
 use ndarray::Array2;
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
 
 use super::heights::fingerprint;
 
@@ -21,15 +21,48 @@ pub enum FrictionError {
     },
 }
 
-/// One number everywhere, or one for every cell.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// Numbers of cells, shape `(nx, ny)`. A record of a run holds its [`MapSummary`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct CellMap(pub Array2<f64>);
+
+/// What a record of a run holds of a map: what tells it apart.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MapSummary {
+    /// Its cells.
+    pub cells: [usize; 2],
+    /// Its smallest number.
+    pub smallest: f64,
+    /// Its largest number.
+    pub largest: f64,
+    /// Hash of its numbers.
+    pub fnv1a64: String,
+}
+
+impl Serialize for CellMap {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self(map) = self;
+        let (nx, ny) = map.dim();
+        let smallest = map.iter().copied().fold(f64::INFINITY, f64::min);
+        let largest = map.iter().copied().fold(0.0, f64::max);
+        MapSummary { cells: [nx, ny], smallest, largest, fnv1a64: fingerprint(map) }.serialize(serializer)
+    }
+}
+
+/// One number everywhere, or one for every cell: the map of a case, or the summary of one in a record.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum CellValues {
+pub enum CellValues<M = CellMap> {
     /// The same everywhere.
     Uniform(f64),
-    /// One for every cell, shape `(nx, ny)`.
-    #[serde(serialize_with = "summary")]
-    Map(Array2<f64>),
+    /// One for every cell.
+    Map(M),
+}
+
+impl<M> CellValues<M> {
+    /// The number that holds everywhere, where there is one.
+    pub fn uniform(&self) -> Option<f64> {
+        if let Self::Uniform(value) = self { Some(*value) } else { None }
+    }
 }
 
 impl CellValues {
@@ -37,7 +70,7 @@ impl CellValues {
     pub fn at(&self, i: usize, j: usize) -> f64 {
         match self {
             Self::Uniform(value) => *value,
-            Self::Map(map) => map[[i, j]],
+            Self::Map(CellMap(map)) => map[[i, j]],
         }
     }
 
@@ -45,14 +78,14 @@ impl CellValues {
     pub fn map(&self) -> Option<&Array2<f64>> {
         match self {
             Self::Uniform(_) => None,
-            Self::Map(map) => Some(map),
+            Self::Map(CellMap(map)) => Some(map),
         }
     }
 
     fn largest(&self) -> f64 {
         match self {
             Self::Uniform(value) => *value,
-            Self::Map(map) => map.iter().copied().fold(0.0, f64::max),
+            Self::Map(CellMap(map)) => map.iter().copied().fold(0.0, f64::max),
         }
     }
 
@@ -61,7 +94,7 @@ impl CellValues {
         let bad = |value: f64| !(value.is_finite() && value >= 0.0);
         match self {
             Self::Uniform(value) => bad(*value).then_some(FrictionError::Value(*value)),
-            Self::Map(map) => map
+            Self::Map(CellMap(map)) => map
                 .indexed_iter()
                 .find(|(_, value)| bad(**value))
                 .map(|((i, j), &value)| FrictionError::Entry { at: [i, j], value }),
@@ -71,13 +104,25 @@ impl CellValues {
 
 /// Dry friction: `|q| <= b = min(mu p, tau)`, with equality and the direction of the slip where the surfaces slip; tau is the shear
 /// strength of the interface, where it has one.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct CoulombFriction {
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CoulombFriction<M = CellMap> {
     /// Friction coefficient mu [-].
-    coefficient: CellValues,
+    coefficient: CellValues<M>,
     /// Shear strength of the interface [pressure].
     #[serde(skip_serializing_if = "Option::is_none")]
-    max_shear: Option<CellValues>,
+    max_shear: Option<CellValues<M>>,
+}
+
+impl<M> CoulombFriction<M> {
+    /// Its coefficients.
+    pub fn coefficient(&self) -> &CellValues<M> {
+        &self.coefficient
+    }
+
+    /// Its shear strength [pressure], where it has one.
+    pub fn max_shear(&self) -> Option<&CellValues<M>> {
+        self.max_shear.as_ref()
+    }
 }
 
 impl CoulombFriction {
@@ -108,7 +153,7 @@ impl CoulombFriction {
     /// # Errors
     /// When an entry is negative or not finite.
     pub fn map(coefficients: Array2<f64>) -> Result<Self, FrictionError> {
-        Self::new(CellValues::Map(coefficients))
+        Self::new(CellValues::Map(CellMap(coefficients)))
     }
 
     /// The same with a shear strength of the interface [pressure].
@@ -140,19 +185,9 @@ impl CoulombFriction {
     pub fn with_maps(&self, replaced: impl Fn(&Array2<f64>) -> Array2<f64>) -> Self {
         let replace = |values: &CellValues| match values {
             CellValues::Uniform(value) => CellValues::Uniform(*value),
-            CellValues::Map(map) => CellValues::Map(replaced(map)),
+            CellValues::Map(CellMap(map)) => CellValues::Map(CellMap(replaced(map))),
         };
         Self { coefficient: replace(&self.coefficient), max_shear: self.max_shear.as_ref().map(replace) }
-    }
-
-    /// Its coefficients.
-    pub fn coefficient(&self) -> &CellValues {
-        &self.coefficient
-    }
-
-    /// Its shear strength [pressure], where it has one.
-    pub fn max_shear(&self) -> Option<&CellValues> {
-        self.max_shear.as_ref()
     }
 
     /// Its maps: values that differ from cell to cell.
@@ -179,19 +214,4 @@ impl CoulombFriction {
     pub fn largest(&self) -> f64 {
         self.coefficient.largest()
     }
-}
-
-/// A record of a run holds what tells a map apart, not the map.
-fn summary<S: Serializer>(map: &Array2<f64>, serializer: S) -> Result<S::Ok, S::Error> {
-    #[derive(Serialize)]
-    struct Summary {
-        cells: [usize; 2],
-        smallest: f64,
-        largest: f64,
-        fnv1a64: String,
-    }
-    let (nx, ny) = map.dim();
-    let smallest = map.iter().copied().fold(f64::INFINITY, f64::min);
-    let largest = map.iter().copied().fold(0.0, f64::max);
-    Summary { cells: [nx, ny], smallest, largest, fnv1a64: fingerprint(map) }.serialize(serializer)
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use ndarray::Array2;
 use schemars::JsonSchema;
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
 
 use super::digest::digest;
 use super::shape::ProfileError;
@@ -72,21 +72,26 @@ impl Heights {
     }
 }
 
-/// A record of a run holds what tells the heights apart, not the heights.
+/// What a record of a run holds of heights: what tells them apart.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct HeightsSummary {
+    /// Where they came from.
+    pub source: String,
+    /// Their cells.
+    pub cells: [usize; 2],
+    /// Root mean square about their mean [length].
+    pub rms: f64,
+    /// From the highest point to the lowest [length].
+    pub valley: f64,
+    /// Hash of their depths.
+    pub fnv1a64: String,
+}
+
 impl Serialize for Heights {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        struct Summary<'a> {
-            source: &'a str,
-            cells: [usize; 2],
-            rms: f64,
-            valley: f64,
-            fnv1a64: String,
-        }
         let valley = self.depths.iter().copied().fold(0.0, f64::max);
-        let fnv1a64 = fingerprint(&self.depths);
-        Summary { source: &self.source, cells: self.cells(), rms: self.rms(), valley, fnv1a64 }
-            .serialize(serializer)
+        let (source, fnv1a64) = (self.source.clone(), fingerprint(&self.depths));
+        HeightsSummary { source, cells: self.cells(), rms: self.rms(), valley, fnv1a64 }.serialize(serializer)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The undeformed gap between the bodies: zero at first touch, positive elsewhere.
 
 use ndarray::Array2;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::grid::SurfaceGrid;
 use super::heights::Heights;
@@ -14,14 +14,28 @@ pub const BEYOND_THE_BODY: f64 = 1e6;
 /// Numbers of straight passes that take as long as the gap of a cell.
 const NUMBERS: usize = 20;
 
-/// The undeformed gap: the sum of the shapes and the heights of both bodies.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
-pub struct Profile {
+/// The undeformed gap: the sum of the shapes and the heights of both bodies; in a record of a run, with the summaries of the heights.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Profile<H = Heights> {
     /// Shapes by formula, each zero at the middle of the grid.
     pub shapes: Vec<Shape>,
     /// Surfaces by heights.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub heights: Vec<Heights>,
+    #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
+    pub heights: Vec<H>,
+}
+
+impl Default for Profile {
+    fn default() -> Self {
+        Self { shapes: Vec::new(), heights: Vec::new() }
+    }
+}
+
+impl<H> Profile<H> {
+    /// Sum of the curvatures of its paraboloids along x and y [1/length].
+    pub fn curvatures(&self) -> [f64; 2] {
+        let curved = self.shapes.iter().filter_map(Shape::curvatures);
+        curved.fold([0.0; 2], |sum, part| [sum[0] + part[0], sum[1] + part[1]])
+    }
 }
 
 impl From<Shape> for Profile {
@@ -64,12 +78,6 @@ impl Profile {
         }
         gap.mapv_inplace(|gap| gap.min(beyond));
         gap
-    }
-
-    /// Sum of the curvatures of its paraboloids along x and y [1/length].
-    pub fn curvatures(&self) -> [f64; 2] {
-        let curved = self.shapes.iter().filter_map(Shape::curvatures);
-        curved.fold([0.0; 2], |sum, part| [sum[0] + part[0], sum[1] + part[1]])
     }
 
     /// Whether the gap is the same everywhere along an axis (0: x, 1: y).

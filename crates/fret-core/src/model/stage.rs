@@ -1,15 +1,15 @@
 //! How a control runs through the increments of a stage: ramps, waves of a cycle (whose heights are in `waveform`), tables.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::controls::{FREEDOMS, Kind};
-use super::friction::CoulombFriction;
+use super::friction::{CellMap, CoulombFriction};
 use super::load::{Control, LoadStep};
 use super::waveform::{CycleTimes, Waveform};
 
 /// One stage of the loading history.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Stage {
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Stage<M = CellMap> {
     /// Name for messages and tables.
     pub name: String,
     /// What changes normally, if anything.
@@ -19,10 +19,10 @@ pub struct Stage {
     /// What changes about z, if anything.
     pub twist: Option<StageControl>,
     /// What changes of the tilt along x and y, if anything.
-    #[serde(skip_serializing_if = "are_none")]
+    #[serde(default, skip_serializing_if = "are_none")]
     pub tilt: [Option<StageControl>; 2],
     /// What changes of the bulk stresses of the lower and of the upper body along x and y, if anything; forces all.
-    #[serde(skip_serializing_if = "are_all_none")]
+    #[serde(default, skip_serializing_if = "are_all_none")]
     pub bulk_stress: [[Option<StageControl>; 2]; 2],
     /// Increments of the stage, or of one cycle, all rows of a table included.
     pub increments: usize,
@@ -34,7 +34,7 @@ pub struct Stage {
     pub course: Course,
     /// Friction from this stage on. Default: as before.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub friction: Option<CoulombFriction>,
+    pub friction: Option<CoulombFriction<M>>,
 }
 
 fn are_none(controls: &[Option<StageControl>; 2]) -> bool {
@@ -46,7 +46,7 @@ fn are_all_none(controls: &[[Option<StageControl>; 2]; 2]) -> bool {
 }
 
 /// What a stage prescribes in one direction, and how it runs.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StageControl {
     /// A force [force] or moment [force x length].
@@ -58,7 +58,7 @@ pub enum StageControl {
 }
 
 /// How a stage runs from where it starts.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Course {
     /// Equal steps to the target, or from row to row of a table.
@@ -72,7 +72,7 @@ pub enum Course {
 }
 
 /// Cycles of a stage.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Cycles {
     /// How many; at the most, where the stage ends when it is steady or worn.
     pub most: usize,
@@ -85,7 +85,7 @@ pub struct Cycles {
 }
 
 /// What a control runs through.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Path {
     /// To a value, at the end of the stage.
@@ -111,7 +111,7 @@ impl Path {
     }
 }
 
-impl Stage {
+impl<M> Stage<M> {
     /// Increments of the whole stage, at the most.
     pub fn increments_in_all(&self) -> usize {
         match self.course {

@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Shape of a cycle: 0, +1, -1, 0 at the fractions 0, 1/4, 3/4, 1 of its length.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Waveform {
     /// Straight lines.

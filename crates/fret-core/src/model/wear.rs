@@ -20,7 +20,7 @@ pub enum WearLaw {
 }
 
 /// How surfaces wear, and how many cycles a computed one stands for.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WearRule {
     /// What the depth follows.
     pub law: WearLaw,

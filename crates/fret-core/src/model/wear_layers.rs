@@ -4,7 +4,7 @@
 //! surface times it, until that layer is gone and the next one is at the surface. The depth of each is a piecewise linear function of `w`,
 //! and so is their sum: what each has lost follows from the sum alone.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::half_space::{Body, Coating, ContactPair, HalfSpace, MaterialError};
 
@@ -12,9 +12,19 @@ use super::half_space::{Body, Coating, ContactPair, HalfSpace, MaterialError};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct WornLayer {
     /// Thickness [length]; infinite at the bottom.
+    #[serde(deserialize_with = "thickness")]
     pub thickness: f64,
     /// Depth for work by area [1/pressure].
     pub coefficient: f64,
+}
+
+/// JSON has no infinity: there it is `null`.
+fn thickness<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    if deserializer.is_human_readable() {
+        Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
+    } else {
+        f64::deserialize(deserializer)
+    }
 }
 
 /// Layers of both bodies from their surfaces down; none of a body that does not wear.

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::case::{Case, DATUM, walk};
 use crate::compliance::SurfaceResponse;
@@ -22,7 +22,7 @@ const COARSE_LINE: usize = 192;
 pub(super) const MARGIN: f64 = 1.2;
 
 /// The contact under the heaviest load, without friction, as a coarse grid shows it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ExpectedContact {
     /// Half of its widths along x and y [length], to a twentieth; of a line contact, its half-width twice.
     pub half_widths: [f64; 2],

@@ -2,7 +2,7 @@
 
 use ndarray::Axis;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::simplification::{LeaveOut, Simplification};
 use super::symmetry::{is_loaded, is_stretched, is_twisted};
@@ -12,7 +12,7 @@ use crate::model::{AccumulatedSlip, Body, ContactState, SurfaceGrid, Symmetry};
 use crate::solver::Coupling;
 
 /// An automatic simplification.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LeftOut {
     /// What is not computed.
     pub what: String,

@@ -11,10 +11,10 @@ mod symmetry;
 
 use std::sync::Arc;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::case::{Case, CaseError, GridSize};
+use crate::case::{Case, CaseError, CaseRecord, GridSize};
 use crate::history::Start;
 use crate::kernel::{PairResponse, cells_too_coarse_for_incompressible_film};
 use crate::machine::memory::{MemoryError, claim};
@@ -29,10 +29,10 @@ pub use simplification::{LeaveOut, Simplification};
 use sliding_extent::with_room_to_slide;
 
 /// A case ready to be computed.
-#[derive(Debug, Clone, Serialize)]
-pub struct Plan {
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Plan<C = Case> {
     /// The question.
-    pub case: Case,
+    pub case: C,
     /// The state its history starts from; `None`: bodies that have not touched yet.
     #[serde(skip)]
     pub start: Option<Arc<Start>>,
@@ -63,6 +63,16 @@ pub struct Plan {
     pub memory_bytes: usize,
     /// Size of the kept fields [bytes]: on disk, or in memory where the history holds them.
     pub kept_bytes: usize,
+}
+
+/// A plan as a record of a run has it.
+pub type PlanRecord = Plan<CaseRecord>;
+
+impl<C: Serialize> Plan<C> {
+    /// The plan as it is written down.
+    pub fn to_json(&self) -> Value {
+        serde_json::to_value(self).unwrap_or_default() // a plan holds nothing that JSON has no form for
+    }
 }
 
 impl Plan {
@@ -185,11 +195,6 @@ impl Plan {
     /// Area of the whole contact that a cell in front of the mirrors stands for [length^2].
     pub fn area_of_cell(&self) -> f64 {
         self.grid.cell_area() * self.symmetry.copies() as f64
-    }
-
-    /// The plan as it is written down.
-    pub fn to_json(&self) -> Value {
-        serde_json::to_value(self).unwrap_or_default() // a plan holds nothing that JSON has no form for
     }
 
     /// Refuses a state of another setting.

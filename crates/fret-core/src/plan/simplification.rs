@@ -1,9 +1,9 @@
 //! What a run may leave out because the result is the same without it, and the switch that computes it all the same.
 
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// Work that some problems do not need.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Simplification {
     /// The layered response of bodies without a coating that differs from what lies below it.
@@ -85,5 +85,12 @@ impl Default for LeaveOut {
 impl Serialize for LeaveOut {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(Simplification::ALL.into_iter().filter(|one| self.takes(*one)))
+    }
+}
+
+impl<'de> Deserialize<'de> for LeaveOut {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let made = Vec::<Simplification>::deserialize(deserializer)?;
+        Ok(Self { taken: Simplification::ALL.map(|one| made.contains(&one)) })
     }
 }

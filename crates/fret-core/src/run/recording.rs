@@ -5,7 +5,7 @@ use ndarray::Array2;
 use crate::fields::{copied, largest};
 use crate::history::{Footprint, KeptFields, Residual, StepRecord};
 use crate::machine::memory::MemoryError;
-use crate::model::{CellValues, CoulombFriction, Rig, Symmetry, Zone};
+use crate::model::{CellMap, CellValues, CoulombFriction, Rig, Symmetry, Zone};
 use crate::solver::Increment;
 
 /// The record of a solved increment; what it has worn is not yet known.
@@ -97,7 +97,7 @@ pub fn kept(
 /// Mean coefficient of friction over the contact, weighted with the pressure [-]: what sliding carries of the normal force. Over all cells
 /// where nothing touches.
 pub fn mean_coefficient(friction: &CoulombFriction, pressure: &Array2<f64>) -> f64 {
-    let CellValues::Map(coefficients) = friction.coefficient() else { return friction.largest() };
+    let CellValues::Map(CellMap(coefficients)) = friction.coefficient() else { return friction.largest() };
     // Counted from one of them: the mean of equal numbers is that number.
     let one = coefficients.iter().next().copied().unwrap_or_default();
     let (mut weighted, mut weights, mut plain) = (0.0, 0.0, 0.0);

@@ -3,12 +3,12 @@
 use std::ops::ControlFlow;
 
 use fret_fft::ConvolutionError;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::model::{Integration, Scheme};
 
 /// How pressure and shear act on each other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Coupling {
     /// No friction: pressure alone.

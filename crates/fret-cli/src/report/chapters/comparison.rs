@@ -1,10 +1,12 @@
 //! Numbers against closed forms.
 
+use fret_core::model::Control;
+use fret_core::plan::Coupling;
+use fret_core::study::PartialSlip;
 use maud::{Markup, html};
 
 use crate::report::html::{chapter, deviation, table};
 use crate::report::overview::Overview;
-use crate::report::partial_slip::PartialSlip;
 
 /// Numbers against the closed form at the end of each stage.
 pub fn comparison(view: &Overview<'_>) -> Markup {
@@ -18,9 +20,11 @@ pub fn comparison(view: &Overview<'_>) -> Markup {
     };
     for (stage, [_, end]) in view.spans.iter().enumerate() {
         let row = end - 1;
-        if let Some(pressed) = form.under(history.at("normal_force", row)) {
+        if let Some(pressed) = form.under(Control::Force(history.at("normal_force", row))) {
             let name = || view.stage_name(stage);
-            add(name(), "max pressure", "pressure", history.at("max_pressure", row), pressed.peak());
+            if let Some(peak) = pressed.peak() {
+                add(name(), "max pressure", "pressure", history.at("max_pressure", row), peak);
+            }
             let area = if is_line { "contact width" } else { "contact area" };
             add(name(), area, "length^2", history.at("contact_area", row), pressed.area());
             if let Some(approach) = pressed.approach() {
@@ -57,7 +61,7 @@ pub fn comparison(view: &Overview<'_>) -> Markup {
 
 /// How far the closed form can be trusted here.
 fn words(view: &Overview<'_>, coupling: f64) -> Markup {
-    if view.results.record["plan"]["coupling"] == "coupled" {
+    if view.results.plan().coupling == Coupling::Coupled {
         return html! {
             "The closed forms are frictionless ones: they neglect normal-tangential coupling (Dundurs' |" i { "β" } "| = "
             (format!("{:.3}", coupling.abs())) "), which changes pressure and approach by some percent. There is none of partial slip here."

@@ -17,10 +17,10 @@ pub fn convergence(view: &Overview<'_>) -> Markup {
         vec![Curve { name: None, stroke, ..Curve::line(points, "", 0) }]
     };
     let axes = |name: &str| [Label::plain("increment"), Label::plain(name)];
-    let tolerance = view.results.record["tolerance"].as_f64();
+    let tolerance = view.results.record.tolerance;
     let residual = Chart {
         logarithmic: true,
-        level: tolerance.map(|tolerance| (tolerance, "tolerance".to_owned())),
+        level: Some((tolerance, "tolerance".to_owned())),
         ..Chart::new("residual of every increment", axes("residual"), curve("residual", Stroke::Dots))
     };
     let work = Chart::new(

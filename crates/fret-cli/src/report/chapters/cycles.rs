@@ -61,13 +61,13 @@ pub fn cycles(view: &Overview<'_>) -> Markup {
         &change.in_page(),
         "Change of tractions and motions from the start of a cycle to its end, relative.",
     ));
-    if !view.results.record["plan"]["case"]["friction_evolution"].is_null() {
+    if view.results.case().friction_evolution.is_some() {
         figures.push(figure_of(
             &chart("friction coefficient", "", &|cycle| cycle.friction_coefficient).in_page(),
             "Mean friction coefficient over the contact, weighted with the pressure.",
         ));
     }
-    if !view.results.record["plan"]["case"]["wear"].is_null() {
+    if view.results.case().wear.is_some() {
         figures.push(figure_of(
             &chart("wear volume", "length^3", &|cycle| cycle.worn_volume).in_page(),
             "Wear volume since the start.",

@@ -1,12 +1,12 @@
 //! Dissipated energy, over the increments and by cycle.
 
+use fret_core::study::{PartialSlip, TangentialForm};
 use maud::{Markup, html};
 
 use crate::drawing::chart::{Chart, Curve};
 use crate::drawing::scale::Label;
 use crate::report::html::{chapter, deviation, figure_of, side_by_side, table};
 use crate::report::overview::Overview;
-use crate::report::partial_slip::{PartialSlip, TangentialForm};
 
 /// Cycles listed one by one.
 const MOST_CYCLES: usize = 12;

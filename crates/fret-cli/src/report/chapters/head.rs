@@ -1,9 +1,8 @@
 //! The run at a glance: title, how it ended, its most telling numbers, what about them may mislead.
 
-use fret_core::model::Shape;
+use fret_core::history::WornTo;
 use fret_core::study::pressure_is_unbounded;
 use maud::{Markup, html};
-use serde_json::Value;
 
 use crate::figures::{counted, duration};
 use crate::report::html::{percent, short};
@@ -20,42 +19,36 @@ pub fn head(view: &Overview<'_>) -> Markup {
             @if !cards.is_empty() {
                 dl class="cards" { @for (name, value) in cards { div { dt { (name) } dd { (value) } } } }
             }
-            @for warning in view.results.record["warnings"].as_array().map_or(&[][..], Vec::as_slice) {
-                p class="warning" { (capitalised(text(&warning["message"]))) "." br; span class="small" { (text(&warning["help"])) } }
+            @for warning in &view.results.record.warnings {
+                p class="warning" { (capitalised(&warning.message)) "." br; span class="small" { (warning.help) } }
             }
         }
     }
 }
 
-fn text(value: &Value) -> &str {
-    value.as_str().unwrap_or_default()
-}
-
 fn how_it_ended(view: &Overview<'_>) -> String {
     let (record, table) = (&view.results.record, &view.results.table);
-    let status = text(&record["status"]);
-    let all = record["plan"]["increments"].as_u64().unwrap_or(0) as usize;
+    let all = record.plan.increments;
     let mut line = vec![
-        format!("fretting {}", text(&record["version"])),
-        status.to_owned(),
-        if table.rows() == all || status == "solved" {
+        format!("fretting {}", record.version),
+        record.status.clone(),
+        if table.rows() == all || record.is_solved() {
             counted(table.rows(), "increment")
         } else {
             format!("{} of {all} increments", table.rows())
         },
     ];
-    if let Some(cycles) = record["worn_through"]["cycles"].as_u64() {
-        let what = match record["worn_through"]["to"].as_str() {
-            Some("coating") => "coating worn through",
-            _ => "worn to the limit",
-        };
-        line.push(format!("{what} after {}", counted(cycles as usize, "cycle")));
+    if let Some(end) = &record.end {
+        if let Some(worn) = &end.worn_through {
+            let what = match worn.to {
+                WornTo::Coating => "coating worn through",
+                WornTo::Limit => "worn to the limit",
+            };
+            line.push(format!("{what} after {}", counted(worn.cycles, "cycle")));
+        }
+        line.push(format!("{} on {}", duration(end.totals.wall_s), counted(record.threads, "thread")));
     }
-    if let Some(wall_s) = record["totals"]["wall_s"].as_f64() {
-        let threads = record["threads"].as_u64().unwrap_or(1) as usize;
-        line.push(format!("{} on {}", duration(wall_s), counted(threads, "thread")));
-    }
-    line.extend(record["started_unix_s"].as_u64().map(|seconds| format!("started {}", date(seconds))));
+    line.extend(record.started_unix_s.map(|seconds| format!("started {}", date(seconds))));
     line.join(" · ")
 }
 
@@ -70,9 +63,8 @@ fn cards(view: &Overview<'_>) -> Vec<(&'static str, String)> {
     let Some(last) = table.rows().checked_sub(1) else { return Vec::new() };
     let largest = |name: &str| table.column(name).iter().copied().fold(0.0, f64::max);
     let area = if view.results.fields.is_line() { "max contact width" } else { "max contact area" };
-    let shapes: Option<Vec<Shape>> = view.results.planned("/case/profile/shapes");
-    let is_unbounded = shapes.is_some_and(|shapes| pressure_is_unbounded(&shapes));
-    let pressure = if is_unbounded {
+    let case = view.results.case();
+    let pressure = if pressure_is_unbounded(&case.profile.shapes) {
         "max pressure (no limit: it grows with the number of cells)"
     } else {
         "max pressure"
@@ -89,7 +81,7 @@ fn cards(view: &Overview<'_>) -> Vec<(&'static str, String)> {
         ));
         cards.push(("dissipated energy", view.number(table.at("dissipated_energy", last), "force x length")));
     }
-    if !view.results.record["plan"]["case"]["wear"].is_null() {
+    if case.wear.is_some() {
         cards.push(("wear volume", view.number(table.at("worn_volume", last), "length^3")));
         cards.push(("max wear depth", view.number(table.at("max_worn_depth", last), "length")));
         if let Some(cycle) = view.results.cycles.last() {

@@ -1,12 +1,13 @@
 //! Loads through the history, and the loop of force and displacement.
 
+use fret_core::model::Control;
+use fret_core::study::{PartialSlip, TangentialForm};
 use maud::{Markup, html};
 
 use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::scale::Label;
 use crate::report::html::{chapter, figure_of, side_by_side};
 use crate::report::overview::{Cycle, Overview};
-use crate::report::partial_slip::{PartialSlip, TangentialForm};
 
 /// Earlier cycles that are drawn behind the last one.
 const MOST_BEHIND: usize = 8;
@@ -25,10 +26,11 @@ pub fn loading(view: &Overview<'_>) -> Markup {
         let most = force.iter().copied().fold(0.0, f64::max);
         let curve = (1..=100).filter_map(|part| {
             let force = most * (f64::from(part) / 100.0).powi(3);
-            form.under(force).and_then(|pressed| Some([pressed.approach()?, force]))
+            form.under(Control::Force(force)).and_then(|pressed| Some([pressed.approach()?, force]))
         });
-        curves.insert(0, Curve::dashed(std::iter::once([0.0; 2]).chain(curve).collect(), "Hertz", 1));
-        caption += " Dashed: Hertz, without friction.";
+        let name = form.name();
+        curves.insert(0, Curve::dashed(std::iter::once([0.0; 2]).chain(curve).collect(), name, 1));
+        caption += &format!(" Dashed: {name}, without friction.");
     }
     let axes = [view.label("approach", "length"), view.label("normal force", "force")];
     let mut figures =
@@ -128,7 +130,7 @@ fn stick_fraction(view: &Overview<'_>) -> Markup {
         let exact: Vec<f64> = (0..table.rows())
             .map(|row| {
                 let (after, force) = (form.after(row), table.at("normal_force", row));
-                let pressed = view.normal_form.and_then(|form| form.under(force));
+                let pressed = view.normal_form.and_then(|form| form.under(Control::Force(force)));
                 after.zip(pressed).map_or(f64::NAN, |(after, pressed)| after.stick_area() / pressed.area())
             })
             .collect();

@@ -6,6 +6,7 @@ mod cycles;
 mod energy;
 mod explorer;
 mod head;
+mod heat;
 mod loading;
 mod moment;
 mod question;
@@ -34,6 +35,7 @@ pub fn all(view: &Overview<'_>) -> Result<Markup, Failure> {
         (energy::energy(view))
         (wear::wear(view)?)
         (stress::stress(view))
+        (heat::heat(view))
         (comparison::comparison(view))
         (convergence::convergence(view))
         (question::simplifications(view))

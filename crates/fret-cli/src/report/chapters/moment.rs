@@ -6,7 +6,7 @@ use crate::report::chapters::sections::shear_direction;
 use crate::report::chapters::zones::{cell, image};
 use crate::report::overview::Overview;
 use crate::report::window::{Section, Window};
-use crate::results::Field;
+use fret_results::Field;
 
 /// What is shown of one increment.
 pub struct Moment {

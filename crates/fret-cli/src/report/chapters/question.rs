@@ -1,10 +1,16 @@
 //! The question as it was understood, and which simplifications were used.
 
+use fret_core::case::{Course, Path, Stage, StageControl};
+use fret_core::model::{
+    Base, Body, CellValues, Coating, CoulombFriction, ElasticMaterial, EvolutionDriver, EvolutionLaw,
+    HeightsSummary, MapSummary, Profile, WearLaw, WearRule,
+};
+use fret_core::plan::Coupling;
 use maud::{Markup, html};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::figures::counted;
-use crate::report::html::{chapter, given, pairs};
+use crate::report::html::{chapter, given, number, pairs};
 use crate::report::overview::Overview;
 
 /// Coatings that are listed one by one.
@@ -12,43 +18,41 @@ const MOST_COATINGS: usize = 4;
 
 /// The case as it was understood.
 pub fn question(view: &Overview<'_>) -> Markup {
-    let plan = &view.results.record["plan"];
-    let case = &plan["case"];
+    let (plan, case) = (view.results.plan(), view.results.case());
     let mut rows = vec![
-        ("upper body".to_owned(), body(view, &case["bodies"]["upper"])),
-        ("lower body".to_owned(), body(view, &case["bodies"]["lower"])),
-        ("profile".to_owned(), words(&described(view, &case["profile"]))),
-        ("friction".to_owned(), friction(view, &case["friction"])),
+        ("upper body".to_owned(), body(view, case.bodies.upper())),
+        ("lower body".to_owned(), body(view, case.bodies.lower())),
+        ("profile".to_owned(), words(&profile(view, &case.profile))),
+        ("friction".to_owned(), friction(view, &case.friction)),
     ];
     let [nx, ny] = view.results.fields.cells();
     let [dx, dy] = view.results.fields.spacing().map(|side| view.number(side, "length"));
-    let repeats = if case["periodic"] == true { ", periodic in x and y" } else { "" };
+    let repeats = if case.periodic { ", periodic in x and y" } else { "" };
     rows.push(if view.results.fields.is_line() {
         ("line contact".to_owned(), words(&format!("{nx} cells of {dx}; loads per unit length")))
     } else {
         ("grid".to_owned(), words(&format!("{nx} × {ny} cells of {dx} × {dy}{repeats}")))
     });
-    if let Some(datum) = plan["datum"].as_f64() {
+    if let Some(datum) = plan.datum {
         let depth = view.number(datum, "length");
         rows.push((
             "approach and displacement".to_owned(),
             words(&format!("relative to {depth} below the load")),
         ));
     }
-    let solved = match plan["coupling"].as_str() {
-        Some("frictionless") => "pressure alone: there is no friction",
-        Some("uncoupled") => "pressure, then shear: elastically similar bodies",
-        Some("coupled") => "pressure and shear together: normal-tangential coupling",
-        _ => "",
+    let solved = match plan.coupling {
+        Coupling::Frictionless => "pressure alone: there is no friction",
+        Coupling::Uncoupled => "pressure, then shear: elastically similar bodies",
+        Coupling::Coupled => "pressure and shear together: normal-tangential coupling",
     };
     rows.push(("solved".to_owned(), words(solved)));
-    if !case["wear"].is_null() {
-        rows.push(("wear".to_owned(), words(&wear(view, &case["wear"]))));
+    if let Some(rule) = &case.wear {
+        rows.push(("wear".to_owned(), words(&wear(view, rule))));
     }
-    for (number, stage) in case["stages"].as_array().map_or(&[][..], Vec::as_slice).iter().enumerate() {
+    for (number, stage) in case.stages.iter().enumerate() {
         rows.push((format!("stage {}", number + 1), self::stage(view, stage)));
     }
-    let units = match &view.units {
+    let units = match view.results.units() {
         Some(units) => {
             format!("Units: length {}, force {}, pressure {}.", units.length, units.force, units.pressure)
         }
@@ -62,59 +66,53 @@ fn words(text: &str) -> Markup {
     html! { (text) }
 }
 
-fn constant(view: &Overview<'_>, value: &Value, kind: &str) -> String {
-    value
-        .as_f64()
-        .map_or("?".to_owned(), |value| if kind.is_empty() { given(value) } else { view.given(value, kind) })
-}
-
-fn body(view: &Overview<'_>, body: &Value) -> Markup {
-    if body == "rigid" {
-        return words("rigid");
-    }
-    let material = |material: &Value| {
+fn body(view: &Overview<'_>, body: &Body) -> Markup {
+    let Body::Elastic(half_space) = body else { return words("rigid") };
+    let material = |material: &ElasticMaterial| {
         html! {
-            i { "E" } " " (constant(view, &material["young"], "pressure")) ", " i { "ν" } " " (constant(view, &material["poisson"], ""))
+            i { "E" } " " (view.given(material.young(), "pressure")) ", " i { "ν" } " " (given(material.poisson()))
         }
     };
-    let elastic = &body["elastic"];
-    let coatings = elastic["coatings"].as_array().map_or(&[][..], Vec::as_slice);
+    let coatings = half_space.coatings();
     html! {
         @if coatings.len() > MOST_COATINGS {
-            @let thickness: f64 = coatings.iter().filter_map(|coating| coating["thickness"].as_f64()).sum();
+            @let thickness: f64 = coatings.iter().map(Coating::thickness).sum();
             (coatings.len()) " layers, " (view.given(thickness, "length")) " thick in all; "
         } @else {
             @for coating in coatings {
-                "coating " (constant(view, &coating["thickness"], "length")) " thick, " (material(&coating["material"])) "; "
+                "coating " (view.given(coating.thickness(), "length")) " thick, " (material(coating.material())) "; "
             }
         }
-        @if elastic["base"] == "rigid" {
-            "on a rigid base"
-        } @else {
-            @if !coatings.is_empty() { "on a substrate, " }
-            (material(&elastic["base"]["elastic"]))
+        @match half_space.base() {
+            Base::Rigid => { "on a rigid base" }
+            Base::Elastic(substrate) => {
+                @if !coatings.is_empty() { "on a substrate, " }
+                (material(&substrate))
+            }
         }
     }
 }
 
-/// A profile in words: names and numbers in the order they stand. All its numbers but slopes are lengths.
+fn profile(view: &Overview<'_>, profile: &Profile<HeightsSummary>) -> String {
+    let heights: Vec<String> = profile.heights.iter().map(|heights| topography(view, heights)).collect();
+    let shapes: Vec<String> = profile.shapes.iter().map(|shape| described(view, &json!(shape))).collect();
+    let parts = [heights, shapes].map(|parts| parts.join(" and "));
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ")
+}
+
+/// A shape in words: names and numbers in the order of their names. All its numbers but slopes are lengths.
 fn described(view: &Overview<'_>, value: &Value) -> String {
     match value {
-        Value::Object(map) if map.contains_key("fnv1a64") => topography(view, value),
         Value::Object(map) => {
             let parts: Vec<String> = map
                 .iter()
                 .filter(|(_, value)| !value.is_null())
                 .map(|(name, value)| match value {
-                    Value::Array(parts) if name == "shapes" || name == "heights" => {
-                        parts.iter().map(|part| described(view, part)).collect::<Vec<_>>().join(" and ")
-                    }
                     Value::Number(slope) if name == "slope" => {
                         format!("slope {}", slope.as_f64().map_or_else(String::new, given))
                     }
                     _ => format!("{} {}", name.replace('_', " "), described(view, value)),
                 })
-                .filter(|part| !part.is_empty())
                 .collect();
             parts.join(", ")
         }
@@ -129,162 +127,157 @@ fn described(view: &Overview<'_>, value: &Value) -> String {
 }
 
 /// Measured heights by what a person asks of them.
-fn topography(view: &Overview<'_>, heights: &Value) -> String {
-    let source = heights["source"].as_str().filter(|source| !source.is_empty());
-    let of = source.map_or(String::new(), |source| format!(" of {source}"));
-    let height = |name: &str| {
-        view.with_unit(&heights[name].as_f64().map_or("?".to_owned(), crate::report::html::number), "length")
-    };
-    format!(
-        "topography{of}: rms {} about the mean, {} from the highest point to the lowest",
-        height("rms"),
-        height("valley")
-    )
+fn topography(view: &Overview<'_>, heights: &HeightsSummary) -> String {
+    let source = &heights.source;
+    let of = if source.is_empty() { String::new() } else { format!(" of {source}") };
+    let [rms, valley] = [heights.rms, heights.valley].map(|height| view.with_unit(&number(height), "length"));
+    format!("topography{of}: rms {rms} about the mean, {valley} from the highest point to the lowest")
 }
 
-fn wear(view: &Overview<'_>, wear: &Value) -> String {
-    let law = if wear["law"] == "energy" { "by dissipated energy" } else { "by Archard's law" };
-    let layers = &wear["layers"];
-    let mut parts = vec![if layers.is_null() {
-        format!("{law}, coefficient {}", constant(view, &wear["coefficient"], "1/pressure"))
-    } else {
-        law.to_owned()
+fn wear(view: &Overview<'_>, wear: &WearRule) -> String {
+    let coefficient = |value: f64| view.given(value, "1/pressure");
+    let law = match wear.law {
+        WearLaw::Energy => "by dissipated energy",
+        WearLaw::Archard => "by Archard's law",
+    };
+    let mut parts = vec![match wear.coefficient {
+        Some(value) if wear.layers.is_none() => format!("{law}, coefficient {}", coefficient(value)),
+        _ => law.to_owned(),
     }];
-    for body in ["lower", "upper"] {
-        let coefficients = layers[body].as_array().filter(|list| !list.is_empty());
-        parts.extend(coefficients.map(|list| {
-            let told = |layer: &Value| constant(view, &layer["coefficient"], "1/pressure");
-            format!("{body} body {}", list.iter().map(told).collect::<Vec<_>>().join(", then "))
-        }));
+    if let Some(layers) = &wear.layers {
+        for (body, layers) in ["lower", "upper"].into_iter().zip(layers.bodies()) {
+            let told: Vec<String> = layers.iter().map(|layer| coefficient(layer.coefficient)).collect();
+            if !told.is_empty() {
+                parts.push(format!("{body} body {}", told.join(", then ")));
+            }
+        }
     }
-    if let Some(tolerance) = wear["thinning_tolerance"].as_f64() {
+    if let Some(tolerance) = wear.thinning_tolerance {
         parts.push(format!("worn layers are thinner, followed to {}", given(tolerance)));
     }
-    if let Some(tolerance) = wear["tolerance"].as_f64() {
+    if let Some(tolerance) = wear.tolerance {
         parts.push(format!("cycle jumps with an error of at most {}", given(tolerance)));
     }
-    if let Some(every) = wear["every"].as_u64().filter(|every| *every > 1) {
-        parts.push(format!("a computed cycle stands for at most {every}"));
+    if wear.every > 1 {
+        parts.push(format!("a computed cycle stands for at most {}", wear.every));
     }
-    if !wear["limit"].is_null() {
-        parts.push(format!("ends at a wear depth of {}", constant(view, &wear["limit"], "length")));
+    if let Some(limit) = wear.limit {
+        parts.push(format!("ends at a wear depth of {}", view.given(limit, "length")));
     }
     parts.join(", ")
 }
 
-fn friction(view: &Overview<'_>, friction: &Value) -> Markup {
-    let coefficient = &friction["coefficient"];
-    let map = &coefficient["map"];
+fn friction(view: &Overview<'_>, friction: &CoulombFriction<MapSummary>) -> Markup {
     html! {
-        @match coefficient["uniform"].as_f64() {
-            Some(0.0) => { "none" }
-            Some(coefficient) => { i { "μ" } " " (given(coefficient)) }
-            None => {
-                "a map of " i { "μ" }
-                @if let (Some(least), Some(most)) = (map["smallest"].as_f64(), map["largest"].as_f64()) {
-                    " from " (given(least)) " to " (given(most))
-                }
+        @match friction.coefficient() {
+            CellValues::Uniform(0.0) => { "none" }
+            CellValues::Uniform(coefficient) => { i { "μ" } " " (given(*coefficient)) }
+            CellValues::Map(map) => {
+                "a map of " i { "μ" } " from " (given(map.smallest)) " to " (given(map.largest))
             }
         }
         @if let Some(words) = evolution(view) { ", " (words) }
-        @if !friction["max_shear"].is_null() {
-            @match friction["max_shear"]["uniform"].as_f64() {
-                Some(strength) => { ", shear at most " (view.given(strength, "pressure")) }
-                None => { ", a map of shear strengths" }
-            }
+        @match friction.max_shear() {
+            Some(CellValues::Uniform(strength)) => { ", shear at most " (view.given(*strength, "pressure")) }
+            Some(CellValues::Map(_)) => { ", a map of shear strengths" }
+            None => {}
         }
     }
 }
 
 /// How friction evolves, where it does.
 fn evolution(view: &Overview<'_>) -> Option<String> {
-    let evolution = &view.results.record["plan"]["case"]["friction_evolution"];
-    let (over, kind) = match evolution["by"].as_str()? {
-        "energy" => ("dissipated energy by area", "force/length"),
-        "slip_distance" => ("slip distance", "length"),
-        _ => ("cycles", ""),
+    let evolution = view.results.case().friction_evolution.as_ref()?;
+    let (over, kind) = match evolution.by {
+        EvolutionDriver::Energy => ("dissipated energy by area", "force/length"),
+        EvolutionDriver::SlipDistance => ("slip distance", "length"),
+        EvolutionDriver::Cycles => ("cycles", ""),
     };
-    let exponential = &evolution["law"]["exponential"];
     let driver = |value: f64| if kind.is_empty() { given(value) } else { view.given(value, kind) };
-    let law = if let Some((last, scale)) = exponential["last"].as_f64().zip(exponential["scale"].as_f64()) {
-        format!("tends to {} over a scale of {}", given(last), driver(scale))
-    } else {
-        let row = |row: &Value| Some(format!("{} at {}", given(row[1].as_f64()?), driver(row[0].as_f64()?)));
-        let rows = evolution["law"]["table"].as_array()?;
-        rows.iter().map(row).collect::<Option<Vec<_>>>()?.join(", ")
+    let law = match &evolution.law {
+        EvolutionLaw::Exponential { last, scale } => {
+            format!("tends to {} over a scale of {}", given(*last), driver(*scale))
+        }
+        EvolutionLaw::Table(rows) => {
+            let row = |[at, value]: &[f64; 2]| format!("{} at {}", given(*value), driver(*at));
+            rows.iter().map(row).collect::<Vec<_>>().join(", ")
+        }
     };
-    let every = evolution["every"].as_u64().filter(|every| *every > 1);
-    let jumps = every.map_or(String::new(), |every| format!("; a computed cycle stands for at most {every}"));
+    let jumps = match evolution.every {
+        0 | 1 => String::new(),
+        every => format!("; a computed cycle stands for at most {every}"),
+    };
     Some(format!("evolves with the {over} of each cell: {law}{jumps}"))
 }
 
-fn stage(view: &Overview<'_>, stage: &Value) -> Markup {
+fn stage(view: &Overview<'_>, stage: &Stage<MapSummary>) -> Markup {
     let mut parts: Vec<String> = Vec::new();
-    let mut add = |control: &Value, [force, motion]: [&str; 2], [of_force, of_motion]: [&str; 2]| {
-        let told = |kind: &str, name: &str, unit: &str| {
-            path(view, &control[kind], unit).map(|path| format!("{name} {path}"))
+    let mut add =
+        |control: &Option<StageControl>, [force, motion]: [&str; 2], [of_force, of_motion]: [&str; 2]| {
+            parts.extend(control.as_ref().and_then(|control| {
+                let (name, unit) = match control {
+                    StageControl::Force(_) => (force.to_owned(), of_force),
+                    StageControl::Motion(_) => (motion.to_owned(), of_motion),
+                    StageControl::FarEnd(_) => (format!("actuator, {motion}"), of_motion),
+                };
+                Some(format!("{name} {}", path(view, control.path(), unit)?))
+            }));
         };
-        let actuator = format!("actuator, {motion}");
-        let motions = || told("motion", motion, of_motion).or_else(|| told("far_end", &actuator, of_motion));
-        parts.extend(told("force", force, of_force).or_else(motions));
-    };
-    add(&stage["normal"], ["normal force", "approach"], ["force", "length"]);
+    add(&stage.normal, ["normal force", "approach"], ["force", "length"]);
     for (axis, name) in ["x", "y"].into_iter().enumerate() {
         let names = [format!("tangential force {name}"), format!("displacement {name}")];
-        add(&stage["tangential"][axis], [&names[0], &names[1]], ["force", "length"]);
+        add(&stage.tangential[axis], [&names[0], &names[1]], ["force", "length"]);
     }
-    add(&stage["twist"], ["torsional moment", "rotation"], ["force x length", "rad"]);
+    add(&stage.twist, ["torsional moment", "rotation"], ["force x length", "rad"]);
     for (axis, name) in ["x", "y"].into_iter().enumerate() {
         let names = [format!("tilt moment {name}"), format!("tilt {name}")];
-        add(&stage["tilt"][axis], [&names[0], &names[1]], ["force x length", "rad"]);
+        add(&stage.tilt[axis], [&names[0], &names[1]], ["force x length", "rad"]);
         for (body, which) in ["lower", "upper"].into_iter().enumerate() {
             let stress = format!("bulk stress {name} of the {which} body");
-            add(&stage["bulk_stress"][body][axis], [&stress, &stress], ["pressure", "pressure"]);
+            add(&stage.bulk_stress[body][axis], [&stress, &stress], ["pressure", "pressure"]);
         }
     }
-    let increments = counted(stage["increments"].as_u64().unwrap_or(0) as usize, "increment");
-    let cycles = &stage["course"]["cycles"];
-    let course = match cycles["most"].as_u64() {
-        Some(most) => {
-            let until = cycles["until_steady"].as_f64().map(given);
+    let increments = counted(stage.increments, "increment");
+    let course = match &stage.course {
+        Course::Cycles(cycles) => {
+            let until = cycles.until_steady.map(given);
             let until = until.map_or(String::new(), |until| format!("until steady to {until}, at most "));
-            format!("{until}{} of {increments}", counted(most as usize, "cycle"))
+            format!("{until}{} of {increments}", counted(cycles.most, "cycle"))
         }
-        None => format!("{} in {increments}", stage["course"].as_str().unwrap_or_default()),
+        Course::Linear => format!("linear in {increments}"),
+        Course::Square => format!("square in {increments}"),
+        Course::Cubic => format!("cubic in {increments}"),
     };
     html! {
-        b { (stage["name"].as_str().unwrap_or_default()) } ": " (parts.join(", ")) "; " (course)
-        @if !stage["friction"].is_null() { "; from here on " (friction(view, &stage["friction"])) }
+        b { (stage.name) } ": " (parts.join(", ")) "; " (course)
+        @if let Some(law) = &stage.friction { "; from here on " (friction(view, law)) }
     }
 }
 
-/// What a control runs through; none where there is no control, or one that stays at zero.
-fn path(view: &Overview<'_>, path: &Value, unit: &str) -> Option<String> {
-    let values =
-        path["through"].as_array().map(|values| format!("through {} values of a table", values.len()));
-    let amplitude = path["wave"]["amplitude"].as_f64();
-    if amplitude == Some(0.0) {
-        return None;
+/// What a control runs through; none of one that stays at zero.
+fn path(view: &Overview<'_>, path: &Path, unit: &str) -> Option<String> {
+    match path {
+        Path::To(value) => Some(view.given(*value, unit)),
+        Path::Wave { amplitude: 0.0, .. } => None,
+        Path::Wave { amplitude, phase } => {
+            let ahead =
+                if *phase == 0.0 { String::new() } else { format!(" with phase {}°", given(360.0 * phase)) };
+            Some(format!("± {}{ahead}", view.given(*amplitude, unit)))
+        }
+        Path::Through(values) => Some(format!("through {} values of a table", values.len())),
     }
-    let wave = amplitude.map(|amplitude| {
-        let phase = path["wave"]["phase"].as_f64().filter(|phase| *phase != 0.0);
-        let ahead = phase.map_or(String::new(), |phase| format!(" with phase {}°", given(360.0 * phase)));
-        format!("± {}{ahead}", view.given(amplitude, unit))
-    });
-    path["to"].as_f64().map(|to| view.given(to, unit)).or(wave).or(values)
 }
 
 /// The simplifications that were used, and why.
 pub fn simplifications(view: &Overview<'_>) -> Markup {
-    let items = view.results.record["plan"]["left_out"].as_array().map_or(&[][..], Vec::as_slice);
-    let text = |item: &Value, name: &str| item[name].as_str().unwrap_or_default().to_owned();
+    let items = &view.results.plan().left_out;
     let body = html! {
         @if items.is_empty() {
             p { "None: every part of the model was needed." }
         } @else {
             p { "Same result to the solver tolerance." }
             ul class="out" {
-                @for item in items { li { (text(item, "what")) ", because " (text(item, "why")) ". Saves " (text(item, "saves")) "." } }
+                @for item in items { li { (item.what) ", because " (item.why) ". Saves " (item.saves) "." } }
             }
         }
     };

@@ -1,5 +1,6 @@
 //! Pressure and shear along a line through the middle of the contact.
 
+use fret_core::model::Control;
 use maud::{Markup, html};
 
 use crate::drawing::chart::{Chart, Curve, Stroke};
@@ -12,6 +13,8 @@ use crate::report::window::Section;
 const MOST_SECTIONS: usize = 4;
 /// Curves that differ by less than this fraction of the largest one, on the average, look the same.
 const SEEN: f64 = 0.02;
+/// Largest computed pressures up to which a closed form is drawn that has no limit.
+const HIGHEST: f64 = 1.5;
 /// Points of a closed form along a section.
 const FINE: usize = 400;
 
@@ -126,19 +129,27 @@ fn pressure_section(view: &Overview<'_>, section: &Section) -> Result<Markup, Fa
     candidates.sort_by(|a, b| force(fields.steps[*b]).total_cmp(&force(fields.steps[*a])));
     let chosen = distinct(candidates, |position| Ok(section.values(&fields.field("pressure", position)?)))?;
     let form = |step: usize| {
-        let pressed = view.normal_form?.under(force(step))?;
-        Some(Box::new(move |x: f64, y: f64| pressed.pressure(x, y)) as Box<dyn Fn(f64, f64) -> f64>)
+        let pressed = view.normal_form?.under(Control::Force(force(step)))?;
+        let (pressure, highest) =
+            (pressed.pressure_everywhere(), HIGHEST * view.results.table.at("max_pressure", step));
+        // The pressure of an edge or a tip has no limit: it is drawn as far as the cells go, and a little further.
+        let drawn = move |value: f64| if value <= highest { value } else { f64::NAN };
+        Some(Box::new(move |x: f64, y: f64| drawn(pressure(x, y))) as Box<dyn Fn(f64, f64) -> f64>)
     };
     let curves = section_curves(view, section, &chosen, form);
     let has_form = curves.iter().any(|curve| curve.stroke == Stroke::Dashed);
     let axes = [view.label(section.name(), "length"), view.label("pressure", "pressure")];
     let chart = Chart::new("pressure along a line through the contact", axes, curves);
     let caption = if has_form {
-        "Pressure after these increments (stage, number in it): dots cell by cell, dashed Hertz under the same force."
+        let name = view.normal_form.map_or("", |form| form.name());
+        format!(
+            "Pressure after these increments (stage, number in it): dots cell by cell, dashed {name} under the same force."
+        )
     } else {
         "Pressure after these increments (stage, number in it). No closed form is known for this case."
+            .to_owned()
     };
-    Ok(figure_of(&chart.in_page(), caption))
+    Ok(figure_of(&chart.in_page(), &caption))
 }
 
 fn shear_section(view: &Overview<'_>, section: &Section) -> Result<Markup, Failure> {

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use base64::prelude::{BASE64_STANDARD, Engine};
 use maud::{Markup, html};
-use serde_json::Value;
 
+use crate::commands::stress_kinds::{kind_of_stress, stress_called};
+use crate::commands::stress_record::{Bounded, CrackRecord, StressRecord, UNLIMITED};
 use crate::drawing::chart::{Chart, Curve};
 use crate::figures::figure;
-use crate::output::{kind_of_stress, stress_called};
 use crate::report::html::{chapter, figure_of, side_by_side, table};
 use crate::report::overview::Overview;
 
@@ -21,41 +21,40 @@ pub fn stress(view: &Overview<'_>) -> Markup {
     let folder = view.results.path.join("stress");
     let Some(record) = fs::read(folder.join("stress.json"))
         .ok()
-        .and_then(|text| serde_json::from_slice::<Value>(&text).ok())
+        .and_then(|text| serde_json::from_slice::<StressRecord>(&text).ok())
     else {
         return html! {};
     };
-    let number =
-        |value: &Value, kind: &str| value.as_f64().map_or("–".to_owned(), |value| view.number(value, kind));
-    let entries = |name: &str| record[name].as_array().cloned().unwrap_or_default();
-    let largest: Vec<Vec<String>> = entries("largest")
+    let length = |value: f64| view.number(value, "length");
+    let largest: Vec<Vec<String>> = record
+        .largest
         .iter()
         .map(|found| {
-            let name = found["measure"].as_str().unwrap_or_default();
             vec![
-                stress_called(name),
-                number(&found["value"], kind_of_stress(name)),
-                found["increment"].to_string(),
-                number(&found["x"], "length"),
-                number(&found["y"], "length"),
-                number(&found["depth"], "length"),
-                found["layer"].as_str().unwrap_or_default().to_owned(),
+                stress_called(&found.measure),
+                view.number(found.value, kind_of_stress(&found.measure)),
+                found.increment.to_string(),
+                length(found.x),
+                length(found.y),
+                length(found.depth),
+                found.layer.clone(),
             ]
         })
         .collect();
-    let parameters = record["fatigue"]["parameters"].as_object();
-    let fatigue: Vec<Vec<String>> = parameters
-        .into_iter()
-        .flatten()
+    let fatigue: Vec<Vec<String>> = record
+        .fatigue
+        .iter()
+        .flat_map(|fatigue| &fatigue.parameters)
         .map(|(name, found)| {
+            let line = found.critical_distance.as_ref().map(|at| at.line.value);
             vec![
                 stress_called(name),
-                number(&found["largest"], kind_of_stress(name)),
-                number(&found["x"], "length"),
-                number(&found["depth"], "length"),
-                number(&found["critical_distance"]["line"]["value"], kind_of_stress(name)),
-                plain(&found["cycles"]),
-                plain(&found["factor_of_safety"]),
+                view.number(found.largest, kind_of_stress(name)),
+                length(found.x),
+                length(found.depth),
+                line.map_or("–".to_owned(), |value| view.number(value, kind_of_stress(name))),
+                bounded(found.cycles),
+                bounded(found.factor_of_safety),
             ]
         })
         .collect();
@@ -64,7 +63,7 @@ pub fn stress(view: &Overview<'_>) -> Markup {
         figures.push(figure_of(&html! { img class="picture" alt=(name) src=(address); }, &name));
     }
     let body = html! {
-        p { "In the " (record["body"].as_str().unwrap_or_default()) " body, from the kept tractions. Maxima over all increments and depths:" }
+        p { "In the " (record.body) " body, from the kept tractions. Maxima over all increments and depths:" }
         (table(&["", "maximum", "increment", "x", "y", "depth", "in"], &largest))
         @if !fatigue.is_empty() {
             p class="after" { "Fatigue parameters over the last cycle, under all cells:" }
@@ -78,32 +77,35 @@ pub fn stress(view: &Overview<'_>) -> Markup {
     chapter("Stress below the surface", &body)
 }
 
-/// A number without a unit, or a word in its place; nothing where there is none.
-fn plain(value: &Value) -> String {
-    value.as_f64().map_or_else(|| value.as_str().unwrap_or_default().to_owned(), figure)
+/// A number without a unit, or the word in its place; nothing where there is none.
+fn bounded(value: Option<Bounded>) -> String {
+    value.map_or_else(
+        String::new,
+        |Bounded(value)| {
+            if value.is_finite() { figure(value) } else { UNLIMITED.to_owned() }
+        },
+    )
 }
 
 /// What becomes of the short crack, in a sentence.
-fn crack_of(record: &Value) -> Option<String> {
-    let crack = &record["fatigue"]["crack"];
-    let length = plain(&crack["length"]);
-    let becomes = match crack["fate"].as_str()? {
-        "none" => {
-            return Some(format!("No crack was followed: {}.", crack["reason"].as_str().unwrap_or_default()));
-        }
+fn crack_of(record: &StressRecord) -> Option<String> {
+    let (fate, x, angle, length, cycles) = match record.fatigue.as_ref()?.crack.as_ref()? {
+        CrackRecord::None { reason, .. } => return Some(format!("No crack was followed: {reason}.")),
+        CrackRecord::Followed { fate, x, angle, length, cycles, .. } => (fate, x, angle, length, cycles),
+    };
+    let [x, angle, length] = [x, angle, length].map(|value| figure(*value));
+    let becomes = match fate.as_str() {
         "does_not_grow" => format!("does not grow from its length of {length}"),
         "stops" => format!("stops at a length of {length}"),
         "fractures" => format!("reaches the toughness at a length of {length}"),
         _ => format!("grows to a length of {length}"),
     };
-    let [x, angle] = ["x", "angle"].map(|name| plain(&crack[name]));
-    let cycles =
-        crack["cycles"].as_f64().map_or(String::new(), |cycles| format!(" after {} cycles", figure(cycles)));
+    let cycles = cycles.map_or(String::new(), |cycles| format!(" after {} cycles", figure(cycles)));
     Some(format!("A crack from x = {x}, {angle} degrees from the normal of the surface, {becomes}{cycles}."))
 }
 
 /// Von Mises stress over the depth, largest at each, in the increment where it is largest of all.
-fn over_depth(view: &Overview<'_>, folder: &Path, record: &Value) -> Option<Markup> {
+fn over_depth(view: &Overview<'_>, folder: &Path, record: &StressRecord) -> Option<Markup> {
     let worst = worst(record)?;
     let text = fs::read_to_string(folder.join("depths.csv")).ok()?;
     let mut lines = text.lines();
@@ -131,13 +133,12 @@ fn over_depth(view: &Overview<'_>, folder: &Path, record: &Value) -> Option<Mark
 }
 
 /// The increment of the largest von Mises stress.
-fn worst(record: &Value) -> Option<u64> {
-    let largest = record["largest"].as_array()?;
-    largest.iter().find(|found| found["measure"] == "von_mises")?["increment"].as_u64()
+fn worst(record: &StressRecord) -> Option<usize> {
+    record.largest.iter().find(|found| found.measure == "von_mises").map(|found| found.increment)
 }
 
 /// Pictures of the folder: von Mises stress of the worst increment, and what fatigue shows.
-fn pictures(folder: &Path, record: &Value) -> Vec<(String, String)> {
+fn pictures(folder: &Path, record: &StressRecord) -> Vec<(String, String)> {
     let mut names: Vec<String> = fs::read_dir(folder)
         .into_iter()
         .flatten()

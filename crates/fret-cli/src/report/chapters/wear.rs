@@ -18,7 +18,7 @@ const MOST: usize = 5;
 /// The wear scar.
 pub fn wear(view: &Overview<'_>) -> Result<Markup, Failure> {
     let fields = &view.results.fields;
-    if view.results.record["plan"]["case"]["wear"].is_null() {
+    if view.results.case().wear.is_none() {
         return Ok(html! {});
     }
     let Some(last) = fields.steps.len().checked_sub(1).filter(|_| fields.has("worn_depth")) else {

@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::report::html::chapter;
 use crate::report::overview::Overview;
 use crate::report::window::Window;
-use crate::results::Field;
+use fret_results::Field;
 
 /// Maps, at most.
 const MOST_MAPS: usize = 18;

@@ -1,20 +1,40 @@
-//! Partial slip in closed form along a run, where a form holds: a sphere (Cattaneo, Mindlin and Deresiewicz) or a cylinder in a line
+//! Partial slip in closed form along a history, where a form holds: a sphere (Cattaneo, Mindlin and Deresiewicz) or a cylinder in a line
 //! contact (Cattaneo; with moderate bulk stress Nowell and Hills) on homogeneous bodies that do not couple, one coefficient of friction,
-//! one line of force, a normal force that stays, and a contact that sticks somewhere.
+//! one line of force, a normal force that stays, and a contact that sticks somewhere. Refinement studies ask it about the loads of a plan,
+//! reports about those of a run.
 
 use std::f64::consts::{FRAC_1_PI, PI};
 
-use fret_core::analytic::{CattaneoLine, HertzLine, LineHistory, TangentialHistory};
-use fret_core::model::{BulkCompliance, ContactPair};
-use serde_json::Value;
+use super::normal_form::{NormalForm, Pressed};
+use crate::analytic::{CattaneoLine, HertzLine, LineHistory, TangentialHistory};
+use crate::case::Case;
+use crate::model::{BulkCompliance, Control};
+use crate::plan::{Coupling, Plan};
 
-use super::closed_form::{NormalForm, Pressed};
-use crate::results::Results;
+/// What acts at the end of an increment.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Loaded {
+    /// Normal force [force].
+    pub normal: f64,
+    /// Tangential force along x and y [force].
+    pub tangential: [f64; 2],
+    /// Whether anything turns about z.
+    pub twists: bool,
+    /// Bulk stresses of the lower and the upper body along x and y [pressure].
+    pub bulk_stress: [[f64; 2]; 2],
+    /// Whether all of the contact slides.
+    pub slides: bool,
+}
 
-/// Fraction of the largest load below which a change of the load, or a load across, is none.
-const STEADY: f64 = 1e-4;
+impl Loaded {
+    /// Tangential force along a direction and across it.
+    pub fn components(&self, [cosine, sine]: [f64; 2]) -> [f64; 2] {
+        let [x, y] = self.tangential;
+        [cosine * x + sine * y, cosine * y - sine * x]
+    }
+}
 
-/// Partial slip in closed form along the history of a run.
+/// Partial slip in closed form along a history.
 #[derive(Debug)]
 pub struct TangentialForm {
     /// After each increment, as long as the closed form can follow.
@@ -40,50 +60,50 @@ pub enum PartialSlip {
 }
 
 impl TangentialForm {
-    /// The closed form of a run whose tangential force acts along `direction`, where it has one.
-    pub fn of(results: &Results, normal: &NormalForm, direction: [f64; 2]) -> Option<Self> {
-        let friction: f64 = results.planned("/case/friction/coefficient/uniform")?;
-        let is_given = |place: &str| results.planned::<Value>(place).is_some_and(|value| !value.is_null());
-        if is_given("/case/friction/max_shear") || is_given("/case/friction_evolution") {
+    /// The closed form of a history whose tangential force acts along `direction`, where it has one: of a plan that was made, or that of a
+    /// record. `nothing`: fraction of the largest load below which a change of the load, or a load across, is none.
+    pub fn of<M, H>(
+        plan: &Plan<Case<M, H>>,
+        normal: &NormalForm,
+        (direction, history): ([f64; 2], &[Loaded]),
+        nothing: f64,
+    ) -> Option<Self> {
+        let case = &plan.case;
+        let friction = case.friction.coefficient().uniform()?;
+        let another_law = case.friction.max_shear().is_some()
+            || case.friction_evolution.is_some()
+            || case.stages.iter().any(|stage| stage.friction.is_some());
+        // What slipped before a history starts from a state is not known.
+        if another_law || plan.coupling == Coupling::Coupled || case.start.is_some() {
             return None;
         }
-        let stages: Vec<Value> = results.planned("/case/stages")?;
-        let other_friction = stages.iter().any(|stage| !stage["friction"].is_null());
-        if other_friction || results.planned::<String>("/coupling")? == "coupled" {
-            return None;
-        }
-        let table = &results.table;
-        let [along, across] = components(results, direction);
+        let along: Vec<f64> = history.iter().map(|loaded| loaded.components(direction)[0]).collect();
         let largest = along.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
-        let is_twisted = table.column("twist").iter().any(|twist| *twist != 0.0);
-        if is_twisted || across.iter().any(|force| force.abs() > STEADY * largest) {
+        let strays = |loaded: &Loaded| loaded.components(direction)[1].abs() > nothing * largest;
+        if history.iter().any(|loaded| loaded.twists || strays(loaded)) {
             return None;
         }
-        let forces = table.column("normal_force");
-        let start = along.iter().position(|force| force.abs() > STEADY * largest)?;
-        let pressed = forces[start];
-        let strain = Strain::of(results, direction, &along)?;
-        let mut state =
-            State::at_rest(normal, normal.under(pressed)?, friction, direction, strain.per_force)?;
-        let mut after = vec![None; start];
-        let slides =
-            |row: usize| results.table.regimes().get(row).is_some_and(|regime| regime == "gross_slip");
+        let start = along.iter().position(|force| force.abs() > nothing * largest)?;
+        let pressed = history[start].normal;
+        let strain = Strain::of(case, direction, (history, &along), nothing)?;
+        let held = normal.under(Control::Force(pressed))?;
+        let mut state = State::at_rest(normal, held, friction, direction, strain.per_force)?;
         if !(0..start).all(|row| strain.holds(row)) {
             return None;
         }
-        for (row, (force, tangential)) in forces.iter().zip(&along).enumerate().skip(start) {
-            let is_steady = (force - pressed).abs() <= STEADY * pressed;
+        let mut after = vec![None; start];
+        for (row, (loaded, tangential)) in history.iter().zip(&along).enumerate().skip(start) {
+            let is_steady = (loaded.normal - pressed).abs() <= nothing * pressed;
             // At the onset of sliding the shift is no longer a matter of the force.
             let holds = tangential.abs() < friction * pressed * (1.0 - 1e-6) && strain.holds(row);
-            if !is_steady || !holds || slides(row) {
+            if !is_steady || !holds || loaded.slides {
                 break;
             }
             let Some(slip) = state.pushed(*tangential) else { break };
             after.push(Some(slip));
         }
-        let rows = table.rows();
         let any = after.iter().any(Option::is_some);
-        after.resize(rows, None);
+        after.resize(history.len(), None);
         any.then_some(Self { after })
     }
 
@@ -104,25 +124,23 @@ struct Strain {
     pairs: Vec<[f64; 2]>,
     /// Strain per force per length [length/force].
     per_force: f64,
-    largest: f64,
+    /// Strains that differ by less are equal.
+    nothing: f64,
 }
 
 impl Strain {
     /// Of all increments. None where the bodies are strained otherwise than a closed form knows: across a line contact's axis, with the
     /// force.
-    fn of(results: &Results, direction: [f64; 2], along: &[f64]) -> Option<Self> {
-        let bodies: ContactPair = results.planned("/case/bodies")?;
-        let is_line = results.fields.is_line();
-        let compliance = BulkCompliance::of(&bodies, is_line);
-        let column = |name: &str| results.table.column(name);
-        let stress = [
-            [column("bulk_stress_x"), column("bulk_stress_y")],
-            [column("upper_bulk_stress_x"), column("upper_bulk_stress_y")],
-        ];
-        let at = |row: usize| {
-            compliance.relative_strain(stress.map(|of| of.map(|part| part.get(row).copied().unwrap_or(0.0))))
-        };
-        let strains: Vec<[f64; 2]> = (0..along.len()).map(at).collect();
+    fn of<M, H>(
+        case: &Case<M, H>,
+        direction: [f64; 2],
+        (history, along): (&[Loaded], &[f64]),
+        nothing: f64,
+    ) -> Option<Self> {
+        let is_line = case.is_line();
+        let compliance = BulkCompliance::of(&case.bodies, is_line);
+        let at = |loaded: &Loaded| compliance.relative_strain(loaded.bulk_stress);
+        let strains: Vec<[f64; 2]> = history.iter().map(at).collect();
         let size = |strain: &[f64; 2]| strain[0].hypot(strain[1]);
         let (row, largest) = strains
             .iter()
@@ -130,7 +148,7 @@ impl Strain {
             .enumerate()
             .fold((0, 0.0), |most, next| if next.1 > most.1 { next } else { most });
         if largest == 0.0 {
-            return Some(Self { pairs: vec![[0.0; 2]; along.len()], per_force: 0.0, largest });
+            return Some(Self { pairs: vec![[0.0; 2]; along.len()], per_force: 0.0, nothing: 0.0 });
         }
         let across_axis = is_line && direction[1] == 0.0 && strains.iter().all(|strain| strain[1] == 0.0);
         if !across_axis || along[row] == 0.0 {
@@ -139,12 +157,12 @@ impl Strain {
         let strains = strains.iter().map(|strain| strain[0]);
         let per_force = strains.clone().nth(row)? / along[row];
         let pairs = along.iter().zip(strains).map(|(force, strain)| [per_force * force, strain]).collect();
-        Some(Self { pairs, per_force, largest })
+        Some(Self { pairs, per_force, nothing: nothing * largest })
     }
 
     /// Whether the strain of an increment is in proportion to its force.
     fn holds(&self, row: usize) -> bool {
-        self.pairs.get(row).is_some_and(|[expected, found]| (expected - found).abs() <= STEADY * self.largest)
+        self.pairs.get(row).is_some_and(|[expected, found]| (expected - found).abs() <= self.nothing)
     }
 }
 
@@ -177,7 +195,6 @@ impl State {
             Pressed::Sphere(hertz) => {
                 TangentialHistory::new(&hertz, friction, normal.moduli.shear).ok().map(Self::Sphere)
             }
-            Pressed::Ellipsoid(_) => None,
             Pressed::Line(hertz, _) => {
                 let modulus = normal.moduli.normal;
                 // across the axis, or along it
@@ -192,6 +209,7 @@ impl State {
                     (per_force != 0.0).then_some(Stretched { hertz, friction, modulus, per_force, sense });
                 Some(Self::Line { history, datum: normal.datum, at_datum, stretched })
             }
+            Pressed::Ellipsoid(_) | Pressed::Rounded(_) | Pressed::Flat(_) | Pressed::Cone(_) => None,
         }
     }
 
@@ -287,14 +305,4 @@ impl PartialSlip {
     pub fn neglects_slip_across(&self) -> bool {
         matches!(self, Self::Sphere(_))
     }
-}
-
-/// Tangential force of every increment along a direction and across it.
-pub fn components(results: &Results, [cosine, sine]: [f64; 2]) -> [Vec<f64>; 2] {
-    let table = &results.table;
-    let forces = || table.column("tangential_force_x").iter().zip(table.column("tangential_force_y"));
-    [
-        forces().map(|(x, y)| cosine * x + sine * y).collect(),
-        forces().map(|(x, y)| cosine * y - sine * x).collect(),
-    ]
 }

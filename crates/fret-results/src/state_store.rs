@@ -7,19 +7,14 @@ use std::path::{Path, PathBuf};
 use fret_core::history::Start;
 use fret_core::model::SolvedState;
 use fret_core::plan::Plan;
-use serde::Deserialize;
-use serde_json::Value;
 
-use super::packed_file::{read_packed, write_packed};
-use super::place::folder_below;
-use crate::failure::{Failure, Unwritten};
-use crate::results::is_solved;
+use crate::error::{ResultsError, Unwritten};
+use crate::names::{START, STATES};
+use crate::packed_file::{read_packed, write_packed};
+use crate::place::folder_below;
+use crate::run_record::Record;
 use crate::tally::Tally;
 
-/// The folder.
-pub const STATES: &str = "states";
-/// Where the run started.
-pub const START: &str = "start.state";
 const FIRST_LINE: &str = "fretting state 2\n";
 
 /// The states while a run goes.
@@ -31,7 +26,7 @@ pub struct StateStore {
 
 impl StateStore {
     /// The store of the results at `path`, without any state of an earlier run; `start` is where this one starts.
-    pub fn create(results: &Path, start: Option<&Start>) -> Result<Self, Failure> {
+    pub fn create(results: &Path, start: Option<&Start>) -> Result<Self, ResultsError> {
         let store = Self { results: results.to_owned(), path: results.join(STATES) };
         store.cut_back(0)?;
         let first = results.join(START);
@@ -50,7 +45,7 @@ impl StateStore {
     }
 
     /// Writes down the state of an increment.
-    pub fn keep(&self, increment: usize, rest: &SolvedState) -> Result<(), Failure> {
+    pub fn keep(&self, increment: usize, rest: &SolvedState) -> Result<(), ResultsError> {
         folder_below(&self.results, Path::new(STATES))?;
         write_packed(&self.path.join(increment.to_string()), FIRST_LINE, postcard::to_stdvec(rest).ok())
     }
@@ -84,10 +79,10 @@ pub fn states_below(results: &Path) -> Vec<usize> {
 }
 
 /// In words, which of the states that the record of a solved run lists is not there any more.
-pub fn lost_state(results: &Path, record: &Value) -> Option<String> {
-    let listed = Vec::<usize>::deserialize(&record["states"]).unwrap_or_default();
+pub fn lost_state(results: &Path, record: &Record) -> Option<String> {
+    let listed = &record.end.as_ref().filter(|_| record.is_solved())?.states;
     let found = states_below(results);
-    let lost = listed.into_iter().find(|kept| is_solved(record) && !found.contains(kept))?;
+    let lost = listed.iter().find(|kept| !found.contains(kept))?;
     Some(format!("{}: the state of increment {lost} is missing", results.display()))
 }
 

@@ -8,7 +8,8 @@ use std::fs::{self, File, OpenOptions};
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-use crate::failure::{Failure, Unwritten};
+use crate::error::{ResultsError, Unwritten};
+use crate::names::RECORD;
 
 /// The folder that a path will name once all folders on its way are made: `new/../old` is `old`, even where there is no `new` yet.
 pub fn resolved_path(path: &Path) -> PathBuf {
@@ -44,10 +45,10 @@ pub fn stem(path: &Path, otherwise: &str) -> PathBuf {
 ///
 /// # Errors
 /// When it holds something else, or cannot be made.
-pub fn folder_for_answers(path: &Path, marks: &[&str], what: &str) -> Result<PathBuf, Failure> {
+pub fn folder_for_answers(path: &Path, marks: &[&str], what: &str) -> Result<PathBuf, ResultsError> {
     let path = resolved_path(path);
     let refuse = |why: String| {
-        Err(Failure::Call(
+        Err(ResultsError::Refused(
             format!("{}: {why}", path.display()),
             "choose another folder with --out DIR".to_owned(),
         ))
@@ -57,7 +58,7 @@ pub fn folder_for_answers(path: &Path, marks: &[&str], what: &str) -> Result<Pat
     }
     let holds_something = fs::read_dir(&path).is_ok_and(|mut entries| entries.next().is_some());
     let is_ours = marks.iter().any(|mark| path.join(mark).exists());
-    if holds_something && (!is_ours || path.join("run.json").exists()) {
+    if holds_something && (!is_ours || path.join(RECORD).exists()) {
         return refuse(format!("holds files that are not those of {what}"));
     }
     fs::create_dir_all(&path).map_err(Unwritten::at(&path))?;

@@ -1,21 +1,21 @@
 //! Checksums of the texts of a run: written into its record when it ends, compared by everyone who reads the folder.
 
-use serde_json::{Map, Value};
+use std::collections::BTreeMap;
 
-use super::HISTORY;
+use crate::names::HISTORY;
 
 /// The one column that is another one whenever a case is solved.
 const TIMES: &str = "wall_s";
 
 /// The checksums (CRC-32) of texts, by their names. The history has two: of its numbers, which are the same whenever its case is solved, and
 /// of its times.
-pub fn checksums<'a>(texts: impl IntoIterator<Item = (&'a str, &'a [u8])>) -> Map<String, Value> {
+pub fn checksums<'a>(texts: impl IntoIterator<Item = (&'a str, &'a [u8])>) -> BTreeMap<String, u32> {
     let of = |(name, text): (&str, &[u8])| {
         if name != HISTORY {
-            return vec![(name.to_owned(), crc32fast::hash(text).into())];
+            return vec![(name.to_owned(), crc32fast::hash(text))];
         }
         let [numbers, times] = of_history(text);
-        vec![(name.to_owned(), numbers.into()), (TIMES.to_owned(), times.into())]
+        vec![(name.to_owned(), numbers), (TIMES.to_owned(), times)]
     };
     texts.into_iter().flat_map(of).collect()
 }

@@ -5,12 +5,11 @@ use std::path::{Path, PathBuf};
 
 use fret_core::history::{self, FIELDS};
 use fret_core::model::SurfaceGrid;
-use serde::Deserialize;
 use serde_json::Value;
 
-use super::{is_solved, unusable};
-use crate::failure::Failure;
-use crate::output::zarr::{axis_metadata, bytes_of, checked, chunk, field_metadata, is_checked, is_zone};
+use crate::error::ResultsError;
+use crate::run_record::Record;
+use crate::zarr::{axis_metadata, bytes_of, checked, chunk, field_metadata, is_checked, is_zone};
 
 /// Fields of the kept increments that the run has reached.
 #[derive(Debug)]
@@ -52,26 +51,23 @@ impl Fields {
     ///
     /// # Errors
     /// When it is not what that run has written.
-    pub fn read(path: &Path, record: &Value, rows: usize) -> Result<Self, Failure> {
-        let plan = &record["plan"];
-        let grid = SurfaceGrid::deserialize(&plan["grid"])
-            .map_err(|_| unusable(path, "the record of its run does not tell the grid"))?;
-        let asked = Vec::<String>::deserialize(&plan["case"]["output"]["fields"]).unwrap_or_default();
+    pub fn read(path: &Path, record: &Record, rows: usize) -> Result<Self, ResultsError> {
+        let (case, grid) = (&record.plan.case, record.plan.grid);
         // Where nothing wears the wear depth is not kept, also where it was asked for.
         let is_filled = |name: &str| {
-            name != "worn_depth" || !plan["case"]["wear"].is_null() || path.join(name).join("c").exists() // of the wear that it started from
+            name != "worn_depth" || case.wear.is_some() || path.join(name).join("c").exists() // of the wear that it started from
         };
         let is_asked = |field: &&history::Field| {
-            asked.iter().any(|name| name == field.asked_as) && is_filled(field.name)
+            case.output.fields.iter().any(|name| name == field.asked_as) && is_filled(field.name)
         };
         let names: Vec<&'static str> = FIELDS.iter().filter(is_asked).map(|field| field.name).collect();
         let [nx, ny] = grid.cells();
-        let store = Store { path, is_solved: is_solved(record) };
+        let store = Store { path, is_solved: record.is_solved() };
         let x = floats(&store.axis("x", Some(nx))?);
         // a line contact is the same all along y
         let y = if grid.is_line() { vec![0.0] } else { floats(&store.axis("y", Some(ny))?) };
         if x.iter().chain(&y).any(|centre| !centre.is_finite()) {
-            return Err(unusable(path, "holds centres of cells that are no numbers"));
+            return Err(ResultsError::unusable(path, "holds centres of cells that are no numbers"));
         }
         let numbers = store.axis("increment", None)?;
         let numbers: Vec<i64> =
@@ -80,7 +76,10 @@ impl Fields {
             || numbers.iter().zip(numbers.iter().skip(1)).any(|(one, next)| one >= next)
             || store.is_solved && numbers.last().is_some_and(|last| *last >= rows as i64)
         {
-            return Err(unusable(&path.join("increment"), "does not hold numbers of increments"));
+            return Err(ResultsError::unusable(
+                &path.join("increment"),
+                "does not hold numbers of increments",
+            ));
         }
         let mut is_checked = false;
         for name in &names {
@@ -118,16 +117,17 @@ impl Fields {
     ///
     /// # Errors
     /// When its file is missing, or not as it was written.
-    pub fn field(&self, name: &str, position: usize) -> Result<Field, Failure> {
+    pub fn field(&self, name: &str, position: usize) -> Result<Field, ResultsError> {
         let cells = self.cells();
         let file = self.path.join(chunk(&self.grid, name, position));
-        let bytes = fs::read(&file).map_err(|error| unusable(&file, &format!("cannot be read: {error}")))?;
+        let bytes = fs::read(&file)
+            .map_err(|error| ResultsError::unusable(&file, &format!("cannot be read: {error}")))?;
         let bytes = checked(bytes, Some(bytes_of(&self.grid, name)), self.is_checked)
-            .map_err(|what| unusable(&file, &what))?;
+            .map_err(|what| ResultsError::unusable(&file, &what))?;
         let values = if is_zone(name) { bytes.into_iter().map(f64::from).collect() } else { floats(&bytes) };
         let none = |value: &f64| !value.is_finite() || is_zone(name) && *value > 2.0;
         if let Some(place) = values.iter().position(none) {
-            return Err(unusable(&file, &format!("value {place} is none of a field")));
+            return Err(ResultsError::unusable(&file, &format!("value {place} is none of a field")));
         }
         Ok(Field { cells, values })
     }
@@ -136,7 +136,7 @@ impl Fields {
     ///
     /// # Errors
     /// When the file of one is missing, or not as it was written.
-    pub fn look_at_all(&self) -> Result<(), Failure> {
+    pub fn look_at_all(&self) -> Result<(), ResultsError> {
         let of = |name: &&str| (0..self.steps.len()).try_for_each(|place| self.field(name, place).map(drop));
         self.names.iter().try_for_each(of)
     }
@@ -151,11 +151,12 @@ struct Store<'a> {
 
 impl Store<'_> {
     /// The numbers of an axis, of this length where it is known.
-    fn axis(&self, name: &str, length: Option<usize>) -> Result<Vec<u8>, Failure> {
+    fn axis(&self, name: &str, length: Option<usize>) -> Result<Vec<u8>, ResultsError> {
         let file = self.path.join(name).join("c/0");
-        let bytes = fs::read(&file).map_err(|error| unusable(&file, &format!("cannot be read: {error}")))?;
+        let bytes = fs::read(&file)
+            .map_err(|error| ResultsError::unusable(&file, &format!("cannot be read: {error}")))?;
         if bytes.is_empty() && length.is_some() {
-            return Err(unusable(&file, "holds no grid"));
+            return Err(ResultsError::unusable(&file, "holds no grid"));
         }
         let written = |length: usize| {
             move |is_checked: bool, words: &Value| axis_metadata(name, length, is_checked, words)
@@ -164,11 +165,11 @@ impl Store<'_> {
         let length = length.or_else(|| length_of(&metadata)).unwrap_or_default();
         let is_checked = is_checked(&metadata, written(length)).ok_or_else(|| self.foreign(name))?;
         let expected = if self.is_solved || name != "increment" { Some(8 * length) } else { None };
-        checked(bytes, expected, is_checked).map_err(|what| unusable(&file, &what))
+        checked(bytes, expected, is_checked).map_err(|what| ResultsError::unusable(&file, &what))
     }
 
     /// Whether the chunks of a field over so many increments have checksums.
-    fn field(&self, grid: &SurfaceGrid, name: &str, steps: usize) -> Result<bool, Failure> {
+    fn field(&self, grid: &SurfaceGrid, name: &str, steps: usize) -> Result<bool, ResultsError> {
         let metadata = self.metadata(name)?;
         let steps = if self.is_solved { steps } else { length_of(&metadata).unwrap_or_default() };
         is_checked(&metadata, |is_checked, words| field_metadata(grid, name, steps, is_checked, words))
@@ -176,7 +177,7 @@ impl Store<'_> {
     }
 
     /// The metadata of an array, which the group repeats.
-    fn metadata(&self, name: &str) -> Result<Value, Failure> {
+    fn metadata(&self, name: &str) -> Result<Value, ResultsError> {
         let read = |file: &Path| -> Value {
             fs::read(file).ok().and_then(|text| serde_json::from_slice(&text).ok()).unwrap_or_default()
         };
@@ -188,8 +189,8 @@ impl Store<'_> {
         Ok(own)
     }
 
-    fn foreign(&self, name: &str) -> Failure {
-        unusable(
+    fn foreign(&self, name: &str) -> ResultsError {
+        ResultsError::unusable(
             &self.path.join(name).join("zarr.json"),
             "not an array as a run writes it, or not what the group has of it",
         )

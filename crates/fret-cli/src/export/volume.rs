@@ -11,9 +11,9 @@ use std::path::{Path, PathBuf};
 use fret_core::case::Units;
 use fret_core::model::SurfaceGrid;
 
-use crate::export::vtk::data_array_end;
+use super::vtk::data_array_end;
 use crate::failure::Unwritten;
-use crate::output::{new_file, part_of};
+use fret_results::{new_file, part_of};
 
 /// A volume of named scalar fields while it is filled.
 #[derive(Debug)]

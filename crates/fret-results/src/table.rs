@@ -4,11 +4,10 @@ use std::fs;
 use std::path::Path;
 
 use fret_core::case::Units;
-use serde_json::Value;
 
-use super::{is_solved, refuse_changed, unusable};
-use crate::failure::Failure;
-use crate::output::HISTORY;
+use crate::error::ResultsError;
+use crate::names::HISTORY;
+use crate::run_record::Record;
 
 /// The one column of words.
 const REGIME: &str = "regime";
@@ -28,29 +27,31 @@ impl Table {
     ///
     /// # Errors
     /// When there is none, or that of a solved run is not as it was written.
-    pub fn of(folder: &Path, record: &Value) -> Result<Self, Failure> {
+    pub fn of(folder: &Path, record: &Record) -> Result<Self, ResultsError> {
         let path = folder.join(HISTORY);
         let table = Self::read(&path)?;
-        refuse_changed(record, folder, HISTORY, &fs::read(&path).unwrap_or_default())?;
-        match record["totals"]["increments"].as_u64() {
-            Some(all) if is_solved(record) && all != table.rows as u64 => {
-                Err(unusable(&path, &format!("{} increments of {all} that were solved", table.rows)))
-            }
+        record.refuse_changed(folder, HISTORY, &fs::read(&path).unwrap_or_default())?;
+        match record.end.as_ref().map(|end| end.totals.increments) {
+            Some(all) if record.is_solved() && all != table.rows => Err(ResultsError::unusable(
+                &path,
+                &format!("{} increments of {all} that were solved", table.rows),
+            )),
             _ => Ok(table),
         }
     }
 
     /// Reads a table. A last line that a kill has torn is left away.
-    pub fn read(path: &Path) -> Result<Self, Failure> {
-        let text =
-            fs::read_to_string(path).map_err(|error| unusable(path, &format!("cannot be read: {error}")))?;
+    pub fn read(path: &Path) -> Result<Self, ResultsError> {
+        let text = fs::read_to_string(path)
+            .map_err(|error| ResultsError::unusable(path, &format!("cannot be read: {error}")))?;
         let text = text.rsplit_once('\n').map_or("", |(whole, _)| whole).to_owned() + "\n";
         let mut lines = text.lines();
         let names: Vec<&str> = lines.next().unwrap_or_default().split(',').map(Units::name_of).collect();
         let mut table = Self { text: String::new(), columns: Vec::new(), regimes: Vec::new(), rows: 0 };
         table.columns.extend(names.iter().map(|&name| (name.to_owned(), Vec::new())));
         for (number, line) in lines.enumerate() {
-            let torn = || unusable(path, &format!("line {} is not a row of the table", number + 2));
+            let torn =
+                || ResultsError::unusable(path, &format!("line {} is not a row of the table", number + 2));
             let cells: Vec<&str> = line.split(',').collect();
             if cells.len() != names.len() {
                 return Err(torn());
@@ -67,7 +68,7 @@ impl Table {
         table.columns.retain(|(name, _)| name != REGIME);
         let needed = ["increment", "stage", "normal_force", "tangential_force_x", "shift_x", "residual"];
         match needed.iter().find(|needed| !names.contains(needed)) {
-            Some(needed) => Err(unusable(path, &format!("has no column {needed:?}"))),
+            Some(needed) => Err(ResultsError::unusable(path, &format!("has no column {needed:?}"))),
             None => Ok(Self { text, ..table }),
         }
     }
@@ -75,6 +76,11 @@ impl Table {
     /// Number of increments.
     pub fn rows(&self) -> usize {
         self.rows
+    }
+
+    /// Whether there is a column of numbers of this name.
+    pub fn has(&self, name: &str) -> bool {
+        self.columns.iter().any(|(column, _)| column == name)
     }
 
     /// A column; no rows when there is none of this name.

@@ -6,9 +6,9 @@ use std::path::Path;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
-use super::framed_file::FramedFile;
-use super::place::own_file;
-use crate::failure::Unwritten;
+use crate::error::Unwritten;
+use crate::framed_file::FramedFile;
+use crate::place::own_file;
 
 /// Bytes that are written at once.
 const CHUNK: usize = 1 << 20;
@@ -149,8 +149,8 @@ fn written(
 
 #[cfg(test)]
 mod tests {
-    use super::super::framed_file::body_of;
     use super::*;
+    use crate::framed_file::body_of;
 
     /// Bodies of many chunks, longer and shorter than the one before, on one thread and beside the run.
     #[test]

@@ -9,8 +9,10 @@ use fret_core::history::{CYCLE_COLUMNS, Column, CycleRecord, STEP_COLUMNS, StepR
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
-use super::place::{new_file, own_file};
-use crate::failure::Unwritten;
+use crate::error::{ResultsError, Unwritten};
+use crate::names::CYCLES;
+use crate::place::{new_file, own_file};
+use crate::run_record::Record;
 
 /// What a table holds a line of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -81,14 +83,9 @@ impl HistoryTable {
 
     /// The cycles in what was `written` of the table at `path`; none where that is not its head and whole lines, or changed.
     pub fn cycles(path: &Path, written: Written, case: &Case) -> Option<Vec<CycleRecord>> {
-        whole_lines(path, written, &Lines::Cycles.head(case))?.lines().map(cycle).collect()
-    }
-
-    /// The cycles of the table at `path`; a last line that a kill has torn is left away. None where there is no such table.
-    pub fn all_cycles(path: &Path) -> Vec<CycleRecord> {
-        let text = std::fs::read_to_string(path).unwrap_or_default();
-        let whole = text.rfind('\n').map_or("", |last| &text[..last]);
-        whole.lines().skip(1).map(cycle).collect::<Option<_>>().unwrap_or_default()
+        let text = whole_lines(path, written, &Lines::Cycles.head(case))?;
+        let names: Vec<&str> = CYCLE_COLUMNS.iter().map(|column| column.name).collect();
+        text.lines().map(|line| cycle(&names, line)).collect()
     }
 
     /// Lines of the table at `path`, its head among them; none where there is no table.
@@ -145,8 +142,8 @@ fn line<R>(columns: &[Column<R>], record: &R) -> String {
     cells.join(",") + "\n"
 }
 
-/// The cycle of a line.
-fn cycle(line: &str) -> Option<CycleRecord> {
+/// The cycle of a line below these names.
+fn cycle(names: &[&str], line: &str) -> Option<CycleRecord> {
     let value = |cell: &str| match cell {
         "" => Json::Null,
         "true" => Json::Bool(true),
@@ -158,8 +155,8 @@ fn cycle(line: &str) -> Option<CycleRecord> {
         },
     };
     let cells: Vec<&str> = line.split(',').collect();
-    let named = CYCLE_COLUMNS.iter().zip(&cells).map(|(column, cell)| (column.name.to_owned(), value(cell)));
-    (cells.len() == CYCLE_COLUMNS.len()).then(|| serde_json::from_value(named.collect()).ok())?
+    let named = names.iter().zip(&cells).map(|(name, cell)| ((*name).to_owned(), value(cell)));
+    (cells.len() == names.len()).then(|| serde_json::from_value(named.collect()).ok())?
 }
 
 /// What was written of a table below its head, when it still stands there: the head and whole lines.
@@ -176,6 +173,29 @@ fn whole_lines(path: &Path, written: Written, head: &str) -> Option<String> {
 /// The shortest digits that read back as the same number.
 fn exact(value: f64) -> String {
     format!("{value:?}")
+}
+
+/// The cycles of a run that are over, as far as its `increments` go; a last line that a kill has torn is left away.
+///
+/// # Errors
+/// When the table of a solved run is not as it was written, or a line is not that of a cycle.
+pub fn cycles_of(
+    folder: &Path,
+    record: &Record,
+    increments: usize,
+) -> Result<Vec<CycleRecord>, ResultsError> {
+    let path = folder.join(CYCLES);
+    let bytes = std::fs::read(&path).unwrap_or_default();
+    record.refuse_changed(folder, CYCLES, &bytes)?;
+    let text = String::from_utf8_lossy(&bytes);
+    let mut lines = text.rfind('\n').map_or("", |last| &text[..last]).lines();
+    let names: Vec<&str> = lines.next().unwrap_or_default().split(',').map(Units::name_of).collect();
+    let foreign =
+        || ResultsError::unusable(&path, "not the table of a run's cycles, or that of an earlier version");
+    let cycles = lines.map(|line| cycle(&names, line).ok_or_else(foreign));
+    let mut cycles = cycles.collect::<Result<Vec<_>, _>>()?;
+    cycles.retain(|cycle| cycle.last_increment < increments);
+    Ok(cycles)
 }
 
 #[cfg(test)]
@@ -220,10 +240,12 @@ mod tests {
             wear_jump_error: None,
         };
         let other = CycleRecord { regime: None, steady: false, ..one.clone() };
+        let names: Vec<&str> = CYCLE_COLUMNS.iter().map(|column| column.name).collect();
         for record in [one, other] {
-            assert_eq!(cycle(line(CYCLE_COLUMNS, &record).trim_end()), Some(record));
+            assert_eq!(cycle(&names, line(CYCLE_COLUMNS, &record).trim_end()), Some(record));
         }
-        assert_eq!(cycle("1,2,3"), None);
+        assert_eq!(cycle(&names, "1,2,3"), None);
+        assert_eq!(cycle(&names[..3], "1,2,3"), None);
     }
 
     #[test]

@@ -17,10 +17,10 @@ use ndarray::Array2;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde_json::{Value, json};
 
-use super::place::folder_below;
-use super::whole_file::{write_whole, write_whole_sparsely};
-use super::zarr::{axis_metadata, bytes_of, checked, checksum, chunk, field_metadata, is_zone};
-use crate::failure::Unwritten;
+use crate::error::Unwritten;
+use crate::place::folder_below;
+use crate::whole_file::{write_whole, write_whole_sparsely};
+use crate::zarr::{axis_metadata, bytes_of, checked, checksum, chunk, field_metadata, is_zone};
 
 /// The store while it is filled.
 #[derive(Debug)]

@@ -4,8 +4,8 @@ use std::fs::{self, File};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use super::place::new_file;
-use crate::failure::Unwritten;
+use crate::error::Unwritten;
+use crate::place::new_file;
 
 /// Writes a file. A reader, a kill and a power failure at any moment find the old content or the new one, never a part.
 pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), Unwritten> {

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use lz4_flex::frame::{Error, FrameDecoder, FrameEncoder, FrameInfo};
 
-use super::whole_file::write_whole;
-use crate::failure::Failure;
+use crate::error::ResultsError;
+use crate::whole_file::write_whole;
 
 /// More bytes than this are none of the largest grid.
 const LONGEST: u64 = 256 << 26;
@@ -15,8 +15,8 @@ const LONGEST: u64 = 256 << 26;
 const BEHIND: &[u8] = &[0xff; 16];
 
 /// Writes a file that begins with a line; `None` for bytes that could not be had.
-pub fn write_packed(path: &Path, first_line: &str, bytes: Option<Vec<u8>>) -> Result<(), Failure> {
-    let nothing = || Failure::Defect(format!("no bytes for {}", path.display()));
+pub fn write_packed(path: &Path, first_line: &str, bytes: Option<Vec<u8>>) -> Result<(), ResultsError> {
+    let nothing = || ResultsError::Defect(format!("no bytes for {}", path.display()));
     let frame = FrameInfo::new().content_checksum(true);
     let mut encoder = FrameEncoder::with_frame_info(frame, first_line.as_bytes().to_vec());
     let written = encoder.write_all(&bytes.ok_or_else(nothing)?).map_err(Error::from);

@@ -3,19 +3,19 @@
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use fret_core::case::{Attachments, Case, CaseError, content, unreadable};
+use fret_core::history::Start;
 use fret_core::plan::{LeaveOut, Plan};
 
-use crate::failure::Failure;
-use crate::origin::Origin;
-use crate::output::stem;
+use crate::place::stem;
 
 /// Bytes read at the most: one more than the core takes, so that an endless stream is refused and not read.
 const MOST_BYTES: u64 = (4 << 20) + 1;
 
 /// A case file that could be read.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct CaseFile {
     /// Where it lies, as given.
     pub path: PathBuf,
@@ -26,7 +26,7 @@ pub struct CaseFile {
 }
 
 /// What a text names that came from no file.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Beside {
     /// Folder where relative names start.
     pub folder: PathBuf,
@@ -83,10 +83,10 @@ impl CaseFile {
         stem(&self.path, "case")
     }
 
-    /// The case, read; its history starts from `origin`, or from bodies apart.
-    pub fn case(&self, origin: Option<&Origin>) -> Result<Case, CaseError> {
+    /// The case, read; its history starts from `start`, or from bodies apart.
+    pub fn case(&self, start: Option<&Arc<Start>>) -> Result<Case, CaseError> {
         let beside = |name: &str| self.attachment(name);
-        let attachments = Attachments::files(&beside).starting_from(origin.map(Origin::loads));
+        let attachments = Attachments::files(&beside).starting_from(start.map(|start| start.solved.loads));
         Case::from_toml_with(&self.text, &self.name(), attachments)
     }
 
@@ -95,20 +95,14 @@ impl CaseFile {
         self.planned_leaving_out(LeaveOut::ALL, None)
     }
 
-    /// The case, read and planned to start from the state that is named `from`, if one is.
-    pub fn planned_from(&self, from: Option<&str>) -> Result<Plan, Failure> {
-        let origin = from.map(Origin::read).transpose()?;
-        Ok(self.planned_leaving_out(LeaveOut::ALL, origin.as_ref())?)
-    }
-
-    /// The case, read and planned with some shortcuts alone, to start from `origin`, or from bodies apart.
+    /// The case, read and planned with some shortcuts alone, to start from `start`, or from bodies apart.
     pub fn planned_leaving_out(
         &self,
         leave_out: LeaveOut,
-        origin: Option<&Origin>,
+        start: Option<&Arc<Start>>,
     ) -> Result<Plan, CaseError> {
-        let case = self.case(origin)?;
-        Plan::starting_from(origin.map(|origin| origin.start.clone()), case, leave_out)
+        let case = self.case(start)?;
+        Plan::starting_from(start.cloned(), case, leave_out)
     }
 }
 

@@ -5,7 +5,8 @@ use std::path::Path;
 use std::process::Command;
 
 /// What the program is made of, seen from this crate.
-const SOURCES: [&str; 5] = ["src", "build.rs", "../fret-core/src", "../fret-fft/src", "../../Cargo.lock"];
+const SOURCES: [&str; 6] =
+    ["src", "build.rs", "../fret-cli/src", "../fret-core/src", "../fret-fft/src", "../../Cargo.lock"];
 
 fn main() {
     let (commit, is_clean) = packaged().or_else(checked_out).unwrap_or(("unknown".to_owned(), None));
@@ -27,7 +28,7 @@ fn packaged() -> Option<(String, Option<bool>)> {
 
 /// The commit of a checkout of this project; not that of another one, which holds a copy.
 fn checked_out() -> Option<(String, Option<bool>)> {
-    if git(&["rev-parse", "--show-prefix"])?.trim_end_matches('/') != "crates/fret-cli" {
+    if git(&["rev-parse", "--show-prefix"])?.trim_end_matches('/') != "crates/fret-results" {
         return None;
     }
     let commit = git(&["rev-parse", "HEAD"])?;

@@ -4,11 +4,14 @@ use std::path::Path;
 use std::sync::Arc;
 
 use fret_core::history::Start;
-use fret_core::model::LoadStep;
+use fret_core::plan::{LeaveOut, Plan};
 
-use crate::failure::Failure;
-use crate::output::kept_run::KeptRun;
-use crate::output::{lost_state, newest_start, start_below, state_below, states_below};
+use crate::case_file::CaseFile;
+use crate::checkpoint_folder::newest_start;
+use crate::error::ResultsError;
+use crate::results::Results;
+use crate::run_record::StartedFrom;
+use crate::state_store::{lost_state, start_below, state_below, states_below};
 
 /// More increments than this are not listed one by one.
 const MOST_LISTED: usize = 12;
@@ -26,7 +29,7 @@ pub struct Origin {
 
 impl Origin {
     /// The state that is named as `RESULTS:INCREMENT`, or the last one of `RESULTS`.
-    pub fn read(named: &str) -> Result<Self, Failure> {
+    pub fn read(named: &str) -> Result<Self, ResultsError> {
         let numbered =
             named.rsplit_once(':').and_then(|(folder, number)| Some((folder, number.parse().ok()?)));
         match numbered {
@@ -38,22 +41,22 @@ impl Origin {
     }
 
     /// The state at the end of an increment of the results in a folder; of the last that is solved when none is named.
-    pub fn of(results: &Path, increment: Option<usize>) -> Result<Self, Failure> {
-        let run = KeptRun::open(results)?;
-        let plan = &run.record["plan"];
-        let newest = if run.unfinished.is_some() { newest_start(results, plan) } else { None };
+    pub fn of(results: &Path, increment: Option<usize>) -> Result<Self, ResultsError> {
+        let run = Results::read(results)?;
+        let plan = &run.plan().to_json();
+        let newest = if run.record.is_solved() { None } else { newest_start(results, plan) };
         let mut all = states_below(results);
-        all.retain(|kept| *kept < run.solved);
+        all.retain(|kept| *kept < run.table.rows());
         all.extend(newest.iter().map(|(increment, _)| *increment));
         all.sort_unstable();
         all.dedup();
         let shown = results.display();
         if let Some(lost) = lost_state(results, &run.record) {
-            return Err(Failure::Call(lost, "solve its case again".to_owned()));
+            return Err(ResultsError::Refused(lost, "solve its case again".to_owned()));
         }
         let increment = match (increment, all.last()) {
             (_, None) => {
-                return Err(Failure::Call(
+                return Err(ResultsError::Refused(
                     format!("{shown}: holds no state to start from"),
                     "solve its case with this version: the end of every stage is one".to_owned(),
                 ));
@@ -61,7 +64,7 @@ impl Origin {
             (None, Some(last)) => *last,
             (Some(asked), _) if all.contains(&asked) => asked,
             (Some(asked), _) => {
-                return Err(Failure::Call(
+                return Err(ResultsError::Refused(
                     format!("{shown}: has no state at the end of increment {asked} to start from"),
                     format!(
                         "increments to start from (counted from 0): {}; those whose pressure, shear and slip are kept \
@@ -71,7 +74,7 @@ impl Origin {
                 ));
             }
         };
-        let damaged = |why: String| Failure::Call(why, "start from another increment".to_owned());
+        let damaged = |why: String| ResultsError::Refused(why, "start from another increment".to_owned());
         let start = match newest {
             Some((number, start)) if number == increment => start,
             _ => {
@@ -90,9 +93,9 @@ impl Origin {
     }
 
     /// The state that the run in a folder of results started from; none where it started from bodies apart.
-    pub fn below(results: &Path) -> Result<Option<Self>, Failure> {
+    pub fn below(results: &Path) -> Result<Option<Self>, ResultsError> {
         let start = start_below(results).map_err(|why| {
-            Failure::Call(
+            ResultsError::Refused(
                 why,
                 "name the state with --from, or start from the beginning with --force".to_owned(),
             )
@@ -102,10 +105,20 @@ impl Origin {
         Ok(start.map(origin))
     }
 
-    /// What is prescribed there.
-    pub fn loads(&self) -> LoadStep {
-        self.start.solved.loads
+    /// What is written down of it.
+    pub fn told(&self) -> StartedFrom {
+        let Self { start, results, increment } = self;
+        StartedFrom { results: results.clone(), increment: *increment, fnv1a64: start.digest().to_owned() }
     }
+}
+
+/// A case, read and planned to start from the state that is named `from`, if one is.
+///
+/// # Errors
+/// When the case is refused, or there is no such state.
+pub fn planned_from(case_file: &CaseFile, from: Option<&str>) -> Result<Plan, ResultsError> {
+    let origin = from.map(Origin::read).transpose()?;
+    Ok(case_file.planned_leaving_out(LeaveOut::ALL, origin.as_ref().map(|origin| &origin.start))?)
 }
 
 fn listed(increments: &[usize]) -> String {

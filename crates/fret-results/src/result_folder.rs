@@ -1,25 +1,8 @@
-//! The result folder: the only place of the command that writes results.
+//! The result folder while a run writes into it.
 //!
 //! `case.toml` (verbatim copy), `run.json` (how it was computed and how it ended), `history.csv` (a line an increment),
 //! `cycles.csv` (a line a cycle), `fields.zarr` (kept fields), `states` (what else a run needs to start from a kept increment), and
 //! `checkpoint` while the run is not solved. An increment's fields and state are written first, then its line, then that of the cycle it ends, then the checkpoint: what the checkpoint counts is complete, what lies beyond it is cut off when the run goes on.
-
-mod checkpoint_folder;
-mod checksums;
-mod field_store;
-mod framed_file;
-mod history_table;
-pub mod kept_run;
-mod packed_file;
-mod place;
-mod run_record;
-pub mod section;
-mod state_store;
-mod stress_kinds;
-mod turn_writer;
-pub mod vtk;
-mod whole_file;
-pub mod zarr;
 
 use std::fs;
 use std::io;
@@ -28,45 +11,23 @@ use std::path::{Path, PathBuf};
 use fret_core::history::{CycleRecord, KeptFields, StepRecord, Warning};
 use fret_core::plan::Plan;
 use fret_core::run::Waypoint;
-use serde_json::{Map, Value, json};
 
 use crate::case_file::CaseFile;
-use crate::failure::{Failure, Unwritten};
+use crate::checkpoint_folder::{CheckpointFolder, Found, Head, Stored};
+use crate::checksums::checksums;
+use crate::error::{ResultsError, Unwritten};
+use crate::field_store::FieldStore;
+use crate::history_table::{HistoryTable, Lines};
+use crate::names::{CASE, CHECKPOINT, CYCLES, ERROR_BARS, FIELDS, HISTORY, RECORD, WRITTEN};
+use crate::place::refuse_links_below;
+use crate::results::Results;
+use crate::run_record::{Ending, Glance, Record, RunRecord, question};
+use crate::state_store::{StateStore, states_below};
 use crate::tally::Tally;
-use checkpoint_folder::{CHECKPOINT, CheckpointFolder, Found, Head};
-pub use checkpoint_folder::{Stored, newest_start};
-pub use checksums::checksums;
-use field_store::FieldStore;
-pub use history_table::HistoryTable;
-use history_table::Lines;
-use kept_run::KeptRun;
-pub use packed_file::{read_packed, write_packed};
-use place::refuse_links_below;
-pub use place::{folder_below, folder_for_answers, new_file, refuse_link, resolved_path, stem};
-pub use run_record::{Ending, FORMAT, RunRecord, question, recorded_question, resolved};
-use state_store::{START, STATES, StateStore};
-pub use state_store::{lost_state, start_below, state_below, states_below};
-pub use stress_kinds::{kind_of_stress, stress_called};
-pub use whole_file::{part_of, write_whole};
-
-/// The text of the case.
-pub const CASE: &str = "case.toml";
-/// How it was computed and how it ended.
-pub const RECORD: &str = "run.json";
-/// The table of increments.
-pub const HISTORY: &str = "history.csv";
-/// The table of cycles.
-pub const CYCLES: &str = "cycles.csv";
-/// The store of fields.
-pub const FIELDS: &str = "fields.zarr";
-/// Error bars of the quantities of interest, where they were asked for.
-pub const ERROR_BARS: &str = "error_bars.json";
-
-/// All that a run writes.
-const WRITTEN: [&str; 9] = [CASE, RECORD, HISTORY, CYCLES, FIELDS, ERROR_BARS, STATES, START, CHECKPOINT];
+use crate::whole_file::write_whole;
 
 /// What lies where the results shall go.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug)]
 pub enum Standing {
     /// Nothing that matters.
     Free,
@@ -77,7 +38,7 @@ pub enum Standing {
     /// A run of the same case that is not solved, to go on with.
     Unfinished,
     /// The same case, solved; its record.
-    Solved(Value),
+    Solved(Box<Record>),
 }
 
 /// What a run shall do with what it finds in its folder.
@@ -89,6 +50,17 @@ pub enum Wish {
     Force,
     /// Go on where an earlier run was broken off.
     Resume,
+}
+
+impl Wish {
+    /// By two answers: whether to go on with what is there, and whether to replace it.
+    pub fn of(resume: bool, replace: bool) -> Self {
+        match (resume, replace) {
+            (true, _) => Self::Resume,
+            (false, true) => Self::Force,
+            (false, false) => Self::Start,
+        }
+    }
 }
 
 /// What is wrong with a file that a run has written, and that is not there in the end.
@@ -112,10 +84,15 @@ pub struct ResultFolder {
 
 impl ResultFolder {
     /// What lies at `path`, and whether results of this case may go there. Writes nothing.
-    pub fn standing(path: &Path, case_file: &CaseFile, plan: &Plan, wish: Wish) -> Result<Standing, Failure> {
+    pub fn standing(
+        path: &Path,
+        case_file: &CaseFile,
+        plan: &Plan,
+        wish: Wish,
+    ) -> Result<Standing, ResultsError> {
         let shown = path.display();
         let other_folder = "choose another folder with --out DIR";
-        let refuse = |what: &str, help: String| Err(Failure::Call(format!("{shown}: {what}"), help));
+        let refuse = |what: &str, help: String| Err(ResultsError::Refused(format!("{shown}: {what}"), help));
         if path.exists() && !path.is_dir() {
             return refuse("a file, not a folder for results", other_folder.to_owned());
         }
@@ -133,13 +110,13 @@ impl ResultFolder {
                 ),
             };
         };
-        let record: Value = serde_json::from_slice(&earlier).unwrap_or(Value::Null);
-        let is_same_question = record["question_fnv1a64"] == run_record::question(plan);
-        let is_solved = record["status"] == "solved";
+        let record = Glance::at(&earlier);
+        let is_same_question = record.question_fnv1a64 == Some(question(plan));
+        let is_solved = record.status == "solved";
         let is_broken_off = !is_solved && CheckpointFolder::is_below(path);
         let same_text = || fs::read(path.join(CASE)).is_ok_and(|text| text == case_file.text.as_bytes());
         match wish {
-            Wish::Resume if record["format"] != FORMAT => refuse(
+            Wish::Resume if !record.is_known() => refuse(
                 "results of another program, or of another version of the format",
                 format!("{other_folder}; nothing was touched"),
             ),
@@ -148,8 +125,9 @@ impl ResultFolder {
                 format!("{other_folder}; nothing was touched"),
             ),
             Wish::Resume if is_solved => {
-                KeptRun::open(path)?.look_at_all(path)?;
-                Ok(Standing::Solved(record))
+                let results = Results::read(path)?;
+                results.look_at_all()?;
+                Ok(Standing::Solved(Box::new(results.record)))
             }
             Wish::Resume => Ok(Standing::Unfinished),
             Wish::Start if is_broken_off && !is_same_question => refuse(
@@ -158,8 +136,8 @@ impl ResultFolder {
                     "{other_folder} (--from {shown} continues from what is solved there), or replace it with --force"
                 ),
             ),
-            Wish::Start if is_broken_off && ended_without_answer(&record) => refuse(
-                &format!("holds this case's run, which failed: {}", message_of(&record)),
+            Wish::Start if is_broken_off && record.ended_without_answer() => refuse(
+                &format!("holds this case's run, which failed: {}", record.why()),
                 format!(
                     "it would end there again; a changed case goes on from what is solved with --from {shown} --out OTHER, \
                      and --force starts from the beginning"
@@ -169,7 +147,7 @@ impl ResultFolder {
                 "holds an unfinished run of this case",
                 "continue with --resume, or start from the beginning with --force".to_owned(),
             ),
-            _ if run_record::is_of_case(&record, case_file) || same_text() => Ok(Standing::SameCase),
+            _ if record.is_of_case(case_file) || same_text() => Ok(Standing::SameCase),
             Wish::Force => Ok(Standing::Forced),
             Wish::Start => refuse(
                 "holds the results of another case",
@@ -179,7 +157,12 @@ impl ResultFolder {
     }
 
     /// Makes the folder ready for a run: earlier results are gone afterwards, other files are left alone.
-    pub fn open(path: &Path, case_file: &CaseFile, plan: &Plan, record: RunRecord) -> Result<Self, Failure> {
+    pub fn open(
+        path: &Path,
+        case_file: &CaseFile,
+        plan: &Plan,
+        record: RunRecord,
+    ) -> Result<Self, ResultsError> {
         fs::create_dir_all(path).map_err(Unwritten::at(path))?;
         let checkpoints = CheckpointFolder::take(path)?;
         // First the record and the checkpoint, so that a kill in between never leaves old ones beside new numbers.
@@ -198,7 +181,7 @@ impl ResultFolder {
             states: StateStore::create(path, plan.start.as_deref())?,
             path: path.to_owned(),
             case_text: case_file.text.clone(),
-            question: run_record::question(plan),
+            question: question(plan),
             record,
             checkpoints,
             increments: plan.case.increments(),
@@ -212,11 +195,11 @@ impl ResultFolder {
         case_file: &CaseFile,
         plan: &Plan,
         record: RunRecord,
-    ) -> Result<Option<Taken>, Failure> {
+    ) -> Result<Option<Taken>, ResultsError> {
         let checkpoints = CheckpointFolder::take(path)?;
-        let question = run_record::question(plan);
+        let question = question(plan);
         let spoilt = |why: String| {
-            Err(Failure::Call(
+            Err(ResultsError::Refused(
                 format!("{}: its run cannot be resumed: {why}", path.display()),
                 "nothing was touched; --force starts from the beginning, --out DIR elsewhere".to_owned(),
             ))
@@ -253,9 +236,8 @@ impl ResultFolder {
         if let Some(why) = StateStore::damaged(path, plan, &steps, &stored.head.tally) {
             return spoilt(why);
         }
-        let earlier = fs::read(path.join(RECORD)).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
-        let earlier = earlier.unwrap_or(Value::Null);
-        let ended = ended_without_answer(&earlier).then(|| message_of(&earlier).to_owned());
+        let earlier = Glance::at(&fs::read(path.join(RECORD)).unwrap_or_default());
+        let ended = earlier.ended_without_answer().then(|| earlier.why().to_owned());
         let record = record.continuing(&earlier);
         write_whole(&path.join(RECORD), &record.running())?;
         write_whole(&path.join(CASE), case_file.text.as_bytes())?; // its words may have changed
@@ -275,7 +257,7 @@ impl ResultFolder {
     }
 
     /// Writes down a solved increment: first its kept fields and what else of its state is needed to start there, then its line.
-    pub fn keep(&mut self, record: &StepRecord, kept: Option<&KeptFields>) -> Result<(), Failure> {
+    pub fn keep(&mut self, record: &StepRecord, kept: Option<&KeptFields>) -> Result<(), ResultsError> {
         if let Some(kept) = kept {
             self.fields.keep(kept)?;
             if let Some(rest) = &kept.rest {
@@ -292,7 +274,12 @@ impl ResultFolder {
 
     /// Writes down where the run stands, after everything about it has been kept; nothing after its last increment, which is solved
     /// again should the process end before the run is closed.
-    pub fn reached(&mut self, waypoint: &Waypoint<'_>, tally: &Tally, wall_s: f64) -> Result<(), Failure> {
+    pub fn reached(
+        &mut self,
+        waypoint: &Waypoint<'_>,
+        tally: &Tally,
+        wall_s: f64,
+    ) -> Result<(), ResultsError> {
         if waypoint.solved() >= self.increments {
             return Ok(());
         }
@@ -332,10 +319,7 @@ impl ResultFolder {
         let tables = [(HISTORY, history.ok()), (CYCLES, cycles.ok())];
         let texts = tables.iter().filter_map(|(name, text)| Some((*name, text.as_deref()?)));
         let texts = texts.chain([(CASE, self.case_text.as_bytes())]);
-        let kept = Map::from_iter([
-            ("checksums".to_owned(), checksums(texts).into()),
-            ("states".to_owned(), json!(states_below(&self.path))),
-        ]);
+        let kept = (checksums(texts), states_below(&self.path));
         let record = self.record.ended((tally, warnings), wall_s, early.or(torn.as_ref()), kept);
         write_whole(&self.path.join(RECORD), &record)?;
         if let Some(lost) = lost {
@@ -346,16 +330,6 @@ impl ResultFolder {
         }
         Ok(())
     }
-}
-
-/// Whether the run of a record ended by its own: it would do so again.
-fn ended_without_answer(record: &Value) -> bool {
-    ["failed", "refused"].iter().any(|status| record["status"] == *status)
-}
-
-/// Why the run of a record ended.
-fn message_of(record: &Value) -> &str {
-    record["message"].as_str().unwrap_or("unknown reason")
 }
 
 /// An unfinished run, resumed.

@@ -15,16 +15,15 @@ use fret_core::run::{Checkpoint, Waypoint};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::framed_file::{FramedFile, body_of};
-use super::history_table::Written;
-use super::place::{folder_below, own_file};
-use super::turn_writer::TurnWriter;
-use super::whole_file::write_whole_by;
-use crate::failure::{Failure, Unwritten};
+use crate::error::{ResultsError, Unwritten};
+use crate::framed_file::{FramedFile, body_of};
+use crate::history_table::Written;
+use crate::names::CHECKPOINT;
+use crate::place::{folder_below, own_file};
 use crate::tally::Tally;
+use crate::turn_writer::TurnWriter;
+use crate::whole_file::write_whole_by;
 
-/// Name of the folder.
-pub const CHECKPOINT: &str = "checkpoint";
 const TURNS: [&str; 2] = ["even", "odd"];
 const SYNCED: &str = "synced";
 const LOCK: &str = "lock";
@@ -87,7 +86,7 @@ pub struct CheckpointFolder {
 
 impl CheckpointFolder {
     /// Takes the folder below the results at `path`; refused while another run holds it.
-    pub fn take(results: &Path) -> Result<Self, Failure> {
+    pub fn take(results: &Path) -> Result<Self, ResultsError> {
         let path = folder_below(results, Path::new(CHECKPOINT))?;
         let name = path.join(LOCK);
         let lock = own_file(&name).map_err(Unwritten::at(&name))?;
@@ -105,7 +104,7 @@ impl CheckpointFolder {
     }
 
     /// Refuses results that another run is writing at this moment; takes and writes nothing.
-    pub fn refuse_taken(results: &Path) -> Result<(), Failure> {
+    pub fn refuse_taken(results: &Path) -> Result<(), ResultsError> {
         // Where there is no lock, or none that can be looked at, the attempt to take it will tell.
         let Ok(lock) = File::open(results.join(CHECKPOINT).join(LOCK)) else { return Ok(()) };
         match lock.try_lock() {
@@ -195,8 +194,8 @@ impl CheckpointFolder {
     }
 }
 
-fn taken(results: &Path) -> Failure {
-    Failure::Call(
+fn taken(results: &Path) -> ResultsError {
+    ResultsError::Refused(
         format!("{}: another run is writing into it at this moment", results.display()),
         "wait for it, or choose another folder with --out DIR".to_owned(),
     )

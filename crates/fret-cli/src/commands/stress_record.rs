@@ -1,0 +1,218 @@
+//! `stress.json`: what is told of the stresses of a run. What is written is what the report reads back.
+
+use std::collections::BTreeMap;
+
+use fret_core::case::Units;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// All of it.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct StressRecord {
+    /// One word.
+    pub status: String,
+    /// Why the run is not finished, if it is not.
+    pub unfinished: Option<String>,
+    /// The body.
+    pub body: String,
+    /// Units that the case declares.
+    pub units: Option<Units>,
+    /// Increments that were evaluated.
+    pub increments: Vec<usize>,
+    /// Depths [length].
+    pub depths: Vec<f64>,
+    /// The layer at each depth, from the surface down.
+    pub layers: Vec<usize>,
+    /// Largest values of all increments, depths and cells.
+    pub largest: Vec<LargestRecord>,
+    /// Fatigue over the last cycle.
+    pub fatigue: Option<FatigueRecord>,
+    /// Fracture of the outermost coating.
+    pub coating: Option<Vec<FilmRecord>>,
+    /// Time it took [s].
+    pub wall_s: f64,
+}
+
+/// The largest value of a measure, and where.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct LargestRecord {
+    /// Which measure.
+    pub measure: String,
+    /// Its value [pressure].
+    pub value: f64,
+    /// The increment.
+    pub increment: usize,
+    /// Place [length].
+    pub x: f64,
+    /// Place [length].
+    pub y: f64,
+    /// Place [length].
+    pub depth: f64,
+    /// The layer, in words.
+    pub layer: String,
+}
+
+/// Fatigue over a cycle.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct FatigueRecord {
+    /// Increments of the cycle.
+    pub increments: Vec<usize>,
+    /// The most severe place by each parameter.
+    pub parameters: BTreeMap<String, ParameterRecord>,
+    /// What becomes of a short crack from the surface, where that was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub crack: Option<CrackRecord>,
+}
+
+/// The largest value of a parameter, and where. What a parameter does not have is left away.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub struct ParameterRecord {
+    /// The value, in the unit of the parameter.
+    pub largest: f64,
+    /// Place [length].
+    pub x: f64,
+    /// Place [length].
+    pub y: f64,
+    /// Place [length].
+    pub depth: f64,
+    /// The layer, from the surface down.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub layer: Option<usize>,
+    /// Unit normal of the critical plane.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub normal: Option<[f64; 3]>,
+    /// The largest value of a cell, where `largest` is extrapolated to the rim.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub largest_cell: Option<f64>,
+    /// Cycles to initiation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cycles: Option<Bounded>,
+    /// The same of the largest cell.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub largest_cell_cycles: Option<Bounded>,
+    /// Factor of safety.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub factor_of_safety: Option<Bounded>,
+    /// The same of every layer, where there are several.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub layers: Vec<ParameterRecord>,
+    /// The value at the critical distance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub critical_distance: Option<CriticalDistance>,
+}
+
+/// A parameter by the theory of critical distances.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct CriticalDistance {
+    /// The distance [length].
+    pub distance: f64,
+    /// By the point method.
+    pub point: AtDistance,
+    /// By the line method.
+    pub line: AtDistance,
+}
+
+/// A value below a place of the surface.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct AtDistance {
+    /// The value.
+    pub value: f64,
+    /// Place [length].
+    pub x: f64,
+    /// Place [length].
+    pub y: f64,
+    /// Cycles to initiation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cycles: Option<Bounded>,
+}
+
+/// What becomes of a short crack.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum CrackRecord {
+    /// It was followed.
+    Followed {
+        /// One word.
+        fate: String,
+        /// Where it starts [length].
+        x: f64,
+        /// Where it starts [length].
+        y: f64,
+        /// From the normal of the surface [degrees].
+        angle: f64,
+        /// Unit vector in the surface that the angle turns to.
+        towards: [f64; 2],
+        /// Its length at the end [length].
+        length: f64,
+        /// Cycles until then.
+        cycles: Option<f64>,
+    },
+    /// There is none.
+    None {
+        /// The word "none".
+        fate: String,
+        /// Why.
+        reason: String,
+    },
+}
+
+/// A crack of the outermost coating.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct FilmRecord {
+    /// Mean stress over the thickness [pressure].
+    pub stress: f64,
+    /// Its direction from the x axis [degrees].
+    pub direction: f64,
+    /// The increment.
+    pub increment: usize,
+    /// Place [length].
+    pub x: f64,
+    /// Place [length].
+    pub y: f64,
+    /// Energy released by a channelling crack [pressure x length].
+    pub channelling: Option<f64>,
+    /// Energy released by delamination [pressure x length].
+    pub delamination: f64,
+    /// Phase angle of the delamination [degrees].
+    pub phase: Option<f64>,
+    /// Root of toughness over energy.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub channelling_factor_of_safety: Option<Bounded>,
+    /// Root of toughness over energy.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub delamination_factor_of_safety: Option<Bounded>,
+}
+
+/// A number that may be beyond all bounds: in files the word "unlimited".
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounded(pub f64);
+
+/// The word for it.
+pub const UNLIMITED: &str = "unlimited";
+
+impl Serialize for Bounded {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        if self.0.is_finite() {
+            serializer.serialize_f64(self.0)
+        } else {
+            serializer.serialize_str(UNLIMITED)
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Bounded {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Written {
+            Number(f64),
+            Word(String),
+        }
+        Ok(match Written::deserialize(deserializer)? {
+            Written::Number(value) => Self(value),
+            Written::Word(word) if word == UNLIMITED => Self(f64::INFINITY),
+            Written::Word(word) => {
+                return Err(serde::de::Error::custom(format!("{word}: neither a number nor {UNLIMITED}")));
+            }
+        })
+    }
+}

@@ -1,0 +1,23 @@
+//! Names of what lies in a folder of results.
+
+/// The text of the case.
+pub const CASE: &str = "case.toml";
+/// How it was computed and how it ended.
+pub const RECORD: &str = "run.json";
+/// The table of increments.
+pub const HISTORY: &str = "history.csv";
+/// The table of cycles.
+pub const CYCLES: &str = "cycles.csv";
+/// The store of fields.
+pub const FIELDS: &str = "fields.zarr";
+/// Error bars of the quantities of interest, where they were asked for.
+pub const ERROR_BARS: &str = "error_bars.json";
+/// States to start from, beside the kept fields.
+pub const STATES: &str = "states";
+/// The state that the run started from.
+pub const START: &str = "start.state";
+/// Where an unfinished run stands.
+pub const CHECKPOINT: &str = "checkpoint";
+
+/// All that a run writes.
+pub const WRITTEN: [&str; 9] = [CASE, RECORD, HISTORY, CYCLES, FIELDS, ERROR_BARS, STATES, START, CHECKPOINT];
