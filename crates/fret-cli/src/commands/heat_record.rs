@@ -108,3 +108,19 @@ impl HeatRecord {
         lines
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{from_value, json};
+
+    use super::*;
+
+    /// Bodies that are apart are not bodies that do not conduct.
+    #[test]
+    fn a_resistance_that_is_none_is_told_from_one_that_was_not_asked_for() {
+        let written = json!({ "increment": 3, "thermal": null });
+        let read: ResistanceRecord = from_value(written.clone()).unwrap();
+        assert_eq!((read.thermal, read.electrical), (Some(None), None));
+        assert_eq!(json!(read), written);
+    }
+}
