@@ -98,10 +98,10 @@ pub struct Solved<'a> {
 ///
 /// # Errors
 /// When the folder holds something else, or cannot be written.
-pub fn save(solved: Solved<'_>, case_file: CaseFile, folder: &Path, wish: Wish) -> Result<(), Failure> {
+pub fn save(solved: Solved<'_>, case_file: &CaseFile, folder: &Path, wish: Wish) -> Result<(), Failure> {
     let Solved { plan, history, quantities, early, error_bars } = solved;
     let folder = &resolved_path(folder);
-    match ResultFolder::standing(folder, &case_file, plan, wish)? {
+    match ResultFolder::standing(folder, case_file, plan, wish)? {
         Standing::Free | Standing::SameCase | Standing::Forced => {}
         Standing::Unfinished | Standing::Solved(_) => {
             let what = format!("{}: holds results already", folder.display());
@@ -110,8 +110,8 @@ pub fn save(solved: Solved<'_>, case_file: CaseFile, folder: &Path, wish: Wish) 
     }
     let origin = origin_in_memory(plan.start.clone());
     let record =
-        RunRecord::new(&case_file, plan, threads::asked(None), origin.as_ref().map(Origin::told).as_ref());
-    let mut results = ResultFolder::open(folder, &case_file, plan, record)?;
+        RunRecord::new(case_file, plan, threads::asked(None), origin.as_ref().map(Origin::told).as_ref());
+    let mut results = ResultFolder::open(folder, case_file, plan, record)?;
     let mut tally = Tally::new(plan);
     for step in &history.steps {
         results.keep(step, history.fields_of(step.increment))?;
@@ -183,10 +183,10 @@ pub fn study(
 /// When the log cannot be read as fretting loops of such a case, or the case cannot be solved.
 pub fn identify(
     log: (&str, &[u8]),
-    case_file: CaseFile,
+    case_file: &CaseFile,
     request: &IdentifyRequest,
 ) -> Result<(Value, String), Failure> {
-    let asked = || crate::identify::identify(log, &case_file, request);
+    let asked = || crate::identify::identify(log, case_file, request);
     // A mistake in the program is an error of the call, not the end of the caller.
     let answer = catch_unwind(AssertUnwindSafe(asked))
         .unwrap_or_else(|panic| Err(Failure::Defect(defect::words_of(panic.as_ref()))))?;

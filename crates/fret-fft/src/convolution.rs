@@ -1,7 +1,7 @@
 //! Products of fields with kernels in free space.
 
-use super::block::Terms;
 use super::engine::PlannedProduct;
+use super::terms::Terms;
 use super::{Block, ConvolutionError, Engine, Kernel, Mirrors, SingleProduct, Workspace};
 
 /// Free-space product of fields with translation-invariant kernels:

@@ -2,11 +2,11 @@
 
 use std::fmt;
 
-use super::block::Terms;
 use super::lanes::{InstructionSet, LaneProduct};
 use super::lengths::is_good_length;
 use super::line_product::LineProduct;
 use super::mirrors::{in_front, unfolded};
+use super::terms::Terms;
 use super::{Kernel, Mirrors, SingleProduct, Workspace};
 
 /// A way to compute products on this machine. All give the same numbers up to rounding.
@@ -142,13 +142,13 @@ fn unfolded_product(
     let wide = |count: usize| vec![vec![0.0; nx * ny]; count];
     let (mut inputs, mut outputs) = (wide(input.len()), wide(output.len()));
     for (index, (part, field)) in input.iter().zip(&mut inputs).enumerate() {
-        unfolded(terms, part, terms.mirrors.input_is_odd(index), field);
+        unfolded(&terms.mirrors, terms.shape, (part, terms.mirrors.input_is_odd(index)), field);
     }
     let fields: Vec<&[f64]> = inputs.iter().map(Vec::as_slice).collect();
     let mut results: Vec<&mut [f64]> = outputs.iter_mut().map(Vec::as_mut_slice).collect();
     product.apply(workspace.lines(product.scratch_len()), &fields, &mut results);
     for (part, field) in output.iter_mut().zip(&outputs) {
-        in_front(terms, field, part);
+        in_front(&terms.mirrors, terms.shape, field, part);
     }
 }
 

@@ -20,6 +20,7 @@ mod periodic_product;
 #[expect(dead_code, reason = "the tests of the whole use all of it")]
 mod random;
 mod single_product;
+mod terms;
 #[cfg(test)]
 mod tests;
 mod workspace;

@@ -6,8 +6,8 @@
 use ndarray::{Array2, ArrayView2, s};
 use rustfft::num_complex::Complex;
 
-use super::block::Terms;
 use super::fourier::{Frequencies, LineTransform};
+use super::terms::Terms;
 use super::{Kernel, Parity};
 
 /// Columns transformed together, so that each cache line of the spectrum is read once.

@@ -1,6 +1,5 @@
 //! Mirrors of a grid: of fields that go on behind a plane as they are, or with the other sign, a half or a quarter suffices.
 
-use super::block::Terms;
 use super::{Block, ConvolutionError, Kernel, Parity};
 
 /// Mirror planes before the first row, the first column or both of a grid, and what the fields do behind them.
@@ -54,10 +53,15 @@ impl Mirrors {
 }
 
 /// The whole field from the part in front of the mirrors.
-pub(super) fn unfolded(terms: &Terms, part: &[f64], odd: [bool; 2], whole: &mut [f64]) {
-    let [nx, ny] = terms.shape;
-    let [_, columns] = terms.mirrors.whole(terms.shape);
-    let [mirror_x, mirror_y] = terms.mirrors.axes;
+pub(super) fn unfolded(
+    mirrors: &Mirrors,
+    shape: [usize; 2],
+    (part, odd): (&[f64], [bool; 2]),
+    whole: &mut [f64],
+) {
+    let [nx, ny] = shape;
+    let [_, columns] = mirrors.whole(shape);
+    let [mirror_x, mirror_y] = mirrors.axes;
     let sign = |behind: bool, odd: bool| if behind && odd { -1.0 } else { 1.0 };
     for (i, row) in whole.chunks_exact_mut(columns).enumerate() {
         let (from, behind_x) = folded(i, nx, mirror_x);
@@ -69,10 +73,10 @@ pub(super) fn unfolded(terms: &Terms, part: &[f64], odd: [bool; 2], whole: &mut 
 }
 
 /// The part of a whole field in front of the mirrors.
-pub(super) fn in_front(terms: &Terms, whole: &[f64], part: &mut [f64]) {
-    let [nx, ny] = terms.shape;
-    let [_, columns] = terms.mirrors.whole(terms.shape);
-    let [first_x, first_y] = [0, 1].map(|axis| if terms.mirrors.axes[axis] { terms.shape[axis] } else { 0 });
+pub(super) fn in_front(mirrors: &Mirrors, shape: [usize; 2], whole: &[f64], part: &mut [f64]) {
+    let [nx, ny] = shape;
+    let [_, columns] = mirrors.whole(shape);
+    let [first_x, first_y] = [0, 1].map(|axis| if mirrors.axes[axis] { shape[axis] } else { 0 });
     debug_assert_eq!(part.len(), nx * ny);
     for (row, from) in part.chunks_exact_mut(ny).zip(whole.chunks_exact(columns).skip(first_x)) {
         row.copy_from_slice(&from[first_y..first_y + ny]);

@@ -2,9 +2,9 @@
 
 use ndarray::Array2;
 
-use super::block::Terms;
 use super::engine::PlannedProduct;
 use super::line_product;
+use super::terms::Terms;
 use super::{Block, ConvolutionError, Engine, Kernel, Mirrors, SingleProduct, Symbol, Workspace};
 
 /// Product of periodic fields with real transfer functions:

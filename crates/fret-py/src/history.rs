@@ -124,8 +124,7 @@ impl History {
             early: early.as_ref().map(|(status, why)| (status.as_str(), why.as_str())),
             error_bars: self.error_bars.as_deref(),
         };
-        let case = self.case.clone();
-        py.detach(|| embedded::save(solved, case, &folder, Wish::of(false, replace))).map_err(stopped)
+        py.detach(|| embedded::save(solved, &self.case, &folder, Wish::of(false, replace))).map_err(stopped)
     }
 
     /// Coordinates of the cell centres along axis 0 or 1 [length].

@@ -25,6 +25,6 @@ pub fn identify(
     let (name, bytes) = log;
     let pool = threads::pool(threads)?;
     let text = case.text()?;
-    let answer = py.detach(|| pool.install(|| embedded::identify((&name, &bytes), text, &request)));
+    let answer = py.detach(|| pool.install(|| embedded::identify((&name, &bytes), &text, &request)));
     answer.map(|(json, page)| (json.to_string(), page)).map_err(stopped)
 }

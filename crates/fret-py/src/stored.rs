@@ -6,7 +6,7 @@ use fret_core::history::{Column, STEP_COLUMNS, Value};
 use fret_results::{Results, ResultsError};
 use ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, ToPyArray};
-use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyErr, PyResult, Python, pyclass, pymethods};
+use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyDict;
 use serde_json::json;
 

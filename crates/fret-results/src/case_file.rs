@@ -36,6 +36,9 @@ pub struct Beside {
 
 impl CaseFile {
     /// Reads a case file.
+    ///
+    /// # Errors
+    /// When the file cannot be read, or is no text.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
         let refuse = |message: String| CaseError::plain(&path.display().to_string(), message);
         let mut bytes = Vec::new();
@@ -50,6 +53,9 @@ impl CaseFile {
     }
 
     /// Reads a case file that another file names: an ordinary one, so that nothing waits on a pipe.
+    ///
+    /// # Errors
+    /// As [`CaseFile::read`]; when it is no ordinary file.
     pub fn read_ordinary(path: &Path) -> Result<Self, CaseError> {
         match path.metadata() {
             Ok(facts) if !facts.is_file() && !facts.is_dir() => {
@@ -84,6 +90,9 @@ impl CaseFile {
     }
 
     /// The case, read; its history starts from `start`, or from bodies apart.
+    ///
+    /// # Errors
+    /// When the case is refused.
     pub fn case(&self, start: Option<&Arc<Start>>) -> Result<Case, CaseError> {
         let beside = |name: &str| self.attachment(name);
         let attachments = Attachments::files(&beside).starting_from(start.map(|start| start.solved.loads));
@@ -91,11 +100,17 @@ impl CaseFile {
     }
 
     /// The case, read and planned.
+    ///
+    /// # Errors
+    /// When the case is refused.
     pub fn planned(&self) -> Result<Plan, CaseError> {
         self.planned_leaving_out(LeaveOut::ALL, None)
     }
 
     /// The case, read and planned with some shortcuts alone, to start from `start`, or from bodies apart.
+    ///
+    /// # Errors
+    /// When the case is refused.
     pub fn planned_leaving_out(
         &self,
         leave_out: LeaveOut,

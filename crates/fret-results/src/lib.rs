@@ -32,7 +32,6 @@ pub use case_file::{Beside, CaseFile};
 pub use checkpoint_folder::{Head, Stored};
 pub use error::{ResultsError, Unwritten};
 pub use fields::{Field, Fields};
-pub use history_table::{HistoryTable, Written};
 pub use names::ERROR_BARS;
 pub use origin::{Origin, planned_from};
 pub use packed_file::{read_packed, write_packed};

@@ -29,6 +29,9 @@ pub struct Origin {
 
 impl Origin {
     /// The state that is named as `RESULTS:INCREMENT`, or the last one of `RESULTS`.
+    ///
+    /// # Errors
+    /// As [`Origin::of`].
     pub fn read(named: &str) -> Result<Self, ResultsError> {
         let numbered =
             named.rsplit_once(':').and_then(|(folder, number)| Some((folder, number.parse().ok()?)));
@@ -41,6 +44,9 @@ impl Origin {
     }
 
     /// The state at the end of an increment of the results in a folder; of the last that is solved when none is named.
+    ///
+    /// # Errors
+    /// When the folder holds no results, or no such state.
     pub fn of(results: &Path, increment: Option<usize>) -> Result<Self, ResultsError> {
         let run = Results::read(results)?;
         let plan = &run.plan().to_json();
@@ -93,6 +99,9 @@ impl Origin {
     }
 
     /// The state that the run in a folder of results started from; none where it started from bodies apart.
+    ///
+    /// # Errors
+    /// When the state is damaged.
     pub fn below(results: &Path) -> Result<Option<Self>, ResultsError> {
         let start = start_below(results).map_err(|why| {
             ResultsError::Refused(

@@ -15,6 +15,9 @@ const LONGEST: u64 = 256 << 26;
 const BEHIND: &[u8] = &[0xff; 16];
 
 /// Writes a file that begins with a line; `None` for bytes that could not be had.
+///
+/// # Errors
+/// When the file cannot be written.
 pub fn write_packed(path: &Path, first_line: &str, bytes: Option<Vec<u8>>) -> Result<(), ResultsError> {
     let nothing = || ResultsError::Defect(format!("no bytes for {}", path.display()));
     let frame = FrameInfo::new().content_checksum(true);
@@ -25,6 +28,9 @@ pub fn write_packed(path: &Path, first_line: &str, bytes: Option<Vec<u8>>) -> Re
 }
 
 /// The bytes of a file that begins with a line, or in a few words why they cannot be had.
+///
+/// # Errors
+/// When the file cannot be read, or is damaged.
 pub fn read_packed(path: &Path, first_line: &str) -> Result<Vec<u8>, String> {
     let damaged = || format!("{}: damaged, or of another version of fret", path.display());
     let bytes = fs::read(path).map_err(|error| format!("{}: cannot be read: {error}", path.display()))?;

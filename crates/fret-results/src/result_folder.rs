@@ -84,6 +84,9 @@ pub struct ResultFolder {
 
 impl ResultFolder {
     /// What lies at `path`, and whether results of this case may go there. Writes nothing.
+    ///
+    /// # Errors
+    /// With the words of a refusal, where they may not.
     pub fn standing(
         path: &Path,
         case_file: &CaseFile,
@@ -157,6 +160,9 @@ impl ResultFolder {
     }
 
     /// Makes the folder ready for a run: earlier results are gone afterwards, other files are left alone.
+    ///
+    /// # Errors
+    /// When another run writes into the folder, or a file cannot be written.
     pub fn open(
         path: &Path,
         case_file: &CaseFile,
@@ -190,6 +196,9 @@ impl ResultFolder {
 
     /// Takes up the unfinished run in the folder; `None` where it had not solved any increment. What lies beyond the checkpoint
     /// is cut off, but only once everything has been found in order.
+    ///
+    /// # Errors
+    /// When the folder does not hold what was written, or another run writes into it.
     pub fn reopen(
         path: &Path,
         case_file: &CaseFile,
@@ -257,6 +266,9 @@ impl ResultFolder {
     }
 
     /// Writes down a solved increment: first its kept fields and what else of its state is needed to start there, then its line.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
     pub fn keep(&mut self, record: &StepRecord, kept: Option<&KeptFields>) -> Result<(), ResultsError> {
         if let Some(kept) = kept {
             self.fields.keep(kept)?;
@@ -268,12 +280,18 @@ impl ResultFolder {
     }
 
     /// Writes down a cycle that is over.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
     pub fn keep_cycle(&mut self, record: &CycleRecord) -> Result<(), Unwritten> {
         self.cycles.add_cycle(record)
     }
 
     /// Writes down where the run stands, after everything about it has been kept; nothing after its last increment, which is solved
     /// again should the process end before the run is closed.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
     pub fn reached(
         &mut self,
         waypoint: &Waypoint<'_>,
@@ -303,6 +321,9 @@ impl ResultFolder {
     }
 
     /// Writes down how the run ended.
+    ///
+    /// # Errors
+    /// When a file cannot be written, or was removed while the run went.
     pub fn close(
         self,
         (tally, warnings): (&Tally, &[Warning]),

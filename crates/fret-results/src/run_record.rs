@@ -210,7 +210,7 @@ impl RunRecord {
     ) -> Vec<u8> {
         let end = End {
             message: early.map(|early| early.message.clone()),
-            worn_through: tally.worn_through.clone(),
+            worn_through: tally.worn_through,
             worn_by_layer: tally.worn_by_layer.clone(),
             quantities_of_interest: tally.stage_quantities.clone(),
             totals: Totals::of(tally, wall_s),

@@ -41,6 +41,9 @@ impl Table {
     }
 
     /// Reads a table. A last line that a kill has torn is left away.
+    ///
+    /// # Errors
+    /// When it cannot be read, or is not the table of a run.
     pub fn read(path: &Path) -> Result<Self, ResultsError> {
         let text = fs::read_to_string(path)
             .map_err(|error| ResultsError::unusable(path, &format!("cannot be read: {error}")))?;

@@ -8,6 +8,9 @@ use crate::error::Unwritten;
 use crate::place::new_file;
 
 /// Writes a file. A reader, a kill and a power failure at any moment find the old content or the new one, never a part.
+///
+/// # Errors
+/// When the file cannot be written.
 pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), Unwritten> {
     write_whole_by(path, |file| file.write_all(content))
 }

@@ -6,21 +6,16 @@ use fret_core::plan::PlanRecord;
 use fretting_results::CaseFile;
 use serde::Deserialize;
 
-fn cases_below(folder: &Path, cases: &mut Vec<PathBuf>) {
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            cases_below(&path, cases);
-        } else if path.extension().is_some_and(|extension| extension == "toml") {
-            cases.push(path);
-        }
-    }
-}
-
 #[test]
 fn the_plan_of_every_example_reads_back_as_it_was_written() {
     let mut cases = Vec::new();
-    cases_below(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples"), &mut cases);
+    let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples")];
+    while let Some(folder) = folders.pop() {
+        let all = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        let (below, files): (Vec<PathBuf>, Vec<PathBuf>) = all.partition(|path| path.is_dir());
+        folders.extend(below);
+        cases.extend(files.into_iter().filter(|path| path.extension().is_some_and(|end| end == "toml")));
+    }
     let mut planned = 0;
     for path in cases {
         let text = std::fs::read_to_string(&path).unwrap();

@@ -18,7 +18,7 @@ use fret_core::plan::memory_of_stress;
 use ndarray::Array2;
 use serde_json::{Value, json};
 
-use super::heat_record::{AtPlace, HeatRecord, Increments, ResistanceRecord, RiseRecord};
+use super::heat_record::{AtPlace, HeatRecord, Increments, Resistance, ResistanceRecord, RiseRecord};
 use crate::arguments::HeatArguments;
 use crate::export::npz;
 use crate::failure::Failure;
@@ -250,8 +250,8 @@ fn resistances(folder: &Path, run: &Results, every: Option<usize>) -> Result<Vec
             run.case().periodic,
             &contact,
         ) {
-            Err(ConductionError::Apart) => Ok(None),
-            other => other.map(Some).map_err(|error| unanswered(folder, &error)),
+            Err(ConductionError::Apart) => Ok(Resistance::Apart),
+            other => other.map(Resistance::Found).map_err(|error| unanswered(folder, &error)),
         };
         let [thermal, electrical] = [thermal.map(found).transpose()?, electrical.map(found).transpose()?];
         rows.push(ResistanceRecord { increment, thermal, electrical });

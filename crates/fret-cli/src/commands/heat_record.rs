@@ -65,14 +65,24 @@ pub struct ResistanceRecord {
     pub increment: usize,
     /// To heat.
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "told")]
-    pub thermal: Option<Option<f64>>,
+    pub thermal: Option<Resistance>,
     /// To electric current.
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "told")]
-    pub electrical: Option<Option<f64>>,
+    pub electrical: Option<Resistance>,
 }
 
-fn told<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Option<f64>>, D::Error> {
-    Option::deserialize(deserializer).map(Some)
+/// A contact resistance: in files a number, or `null`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Resistance {
+    /// Of bodies in contact.
+    Found(f64),
+    /// There is none: the bodies are apart.
+    Apart,
+}
+
+fn told<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Resistance>, D::Error> {
+    Resistance::deserialize(deserializer).map(Some)
 }
 
 /// A line of the answer: its name, its number in words, and to what it belongs.
@@ -101,10 +111,29 @@ impl HeatRecord {
         for of in &self.resistance {
             for (name, found) in [("thermal", of.thermal), ("electrical", of.electrical)] {
                 let Some(found) = found else { continue };
-                let value = found.map_or("none: the bodies are apart".to_owned(), |value| figure(value, ""));
+                let value = match found {
+                    Resistance::Found(value) => figure(value, ""),
+                    Resistance::Apart => "none: the bodies are apart".to_owned(),
+                };
                 line(&format!("{name} contact resistance"), value, format!("increment {}", of.increment));
             }
         }
         lines
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{from_value, json};
+
+    use super::*;
+
+    /// Bodies that are apart are not bodies that do not conduct.
+    #[test]
+    fn a_resistance_that_is_none_is_told_from_one_that_was_not_asked_for() {
+        let written = json!({ "increment": 3, "thermal": null });
+        let read: ResistanceRecord = from_value(written.clone()).unwrap();
+        assert_eq!((read.thermal, read.electrical), (Some(Resistance::Apart), None));
+        assert_eq!(json!(read), written);
     }
 }

@@ -70,7 +70,7 @@ fn requested(arguments: &StressArguments, run: &Results) -> StressRequest {
         Some(_) => request.body = Side::Lower,
         // without a word, a rigid lower body means the other one
         None if run.case().stress.is_none() && *run.case().bodies.lower() == Body::Rigid => {
-            request.body = Side::Upper
+            request.body = Side::Upper;
         }
         None => {}
     }

@@ -216,3 +216,19 @@ impl<'de> Deserialize<'de> for Bounded {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{from_value, json};
+
+    use super::*;
+
+    #[test]
+    fn a_number_beyond_all_bounds_is_a_word_and_no_other_word_is_a_number() {
+        for (value, written) in [(f64::INFINITY, json!("unlimited")), (2.5e6, json!(2.5e6))] {
+            assert_eq!(json!(Bounded(value)), written);
+            assert_eq!(from_value::<Bounded>(written).unwrap(), Bounded(value));
+        }
+        assert!(from_value::<Bounded>(json!("many")).is_err());
+    }
+}

@@ -202,8 +202,8 @@ fn the_page_compares_with_the_closed_form() {
     assert!((-3.3..-2.3).contains(&off), "{off} %");
 }
 
-/// A run that starts from a tilted state is no contact of Hertz, though no stage of its own case tilts; one that starts from a state with
-/// slip is one, but no first loading of Cattaneo's.
+/// A run that starts from a tilted or worn state is no contact of Hertz, though its own case does not tilt or wear; one that starts from a
+/// state with slip is one, but no first loading of Cattaneo's.
 #[test]
 fn what_a_run_starts_from_is_asked_before_a_closed_form_is_drawn() {
     let bench = Bench::new("report-started");
@@ -226,6 +226,9 @@ fn what_a_run_starts_from_is_asked_before_a_closed_form_is_drawn() {
     assert_eq!(solve("from-tilted", rub, &["--from", "tilted"]), [false, false]);
     let back = "[[load]]\ntangential_force = [-0.02, 0.0]\nincrements = 2\n";
     assert_eq!(solve("from-slipped", back, &["--from", "plain"]), [true, false]);
+    let wear = "[wear]\ncoefficient = 1e-13\n";
+    assert_eq!(solve("worn", &(wear.to_owned() + &press("") + rub), &[]), [false, false]);
+    assert_eq!(solve("from-worn", back, &["--from", "worn"]), [false, false]);
 }
 
 #[test]

@@ -14,6 +14,22 @@ pub enum InstructionSet {
     Neon(pulp::aarch64::Neon),
 }
 
+/// Runs a task on an instruction set, on numbers `$number`.
+macro_rules! enter {
+    ($set:expr, $number:ty, $task:expr) => {
+        match $set {
+            InstructionSet::Portable => <$number as Number>::Portable::default().enter($task),
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx2(set) => <$number as Number>::Avx2::from(set).enter($task),
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx512(set) => <$number as Number>::Avx512::from(set).enter($task),
+            #[cfg(target_arch = "aarch64")]
+            InstructionSet::Neon(set) => <$number as Number>::Neon::from(set).enter($task),
+        }
+    };
+}
+pub(super) use enter;
+
 impl InstructionSet {
     /// All that this machine has, fastest first.
     pub fn available() -> Vec<Self> {

@@ -1,84 +1,30 @@
 //! The products of the lane engine: tables, kernels, and the order of the stages.
 
+mod boundary;
 mod kernels;
 mod mirrored;
 mod single;
 
-use super::super::block::Terms;
 use super::super::lengths::good_length;
 use super::super::line_product::folded_indices;
+use super::super::terms::Terms;
 use super::super::{Kernel, Parity};
 use super::columns::{Columns, Term};
-use super::instruction_set::InstructionSet;
+use super::instruction_set::{InstructionSet, enter};
 use super::memory::{AlignedNumbers, numbers_in_cache_line};
 use super::mirrored_columns::MirroredColumns;
-use super::paired_rows::{PairsForward, PairsInverse, Places, places};
+use super::paired_rows::{PairsForward, PairsInverse, places};
 use super::plan::LinePlan;
 use super::reflection::{Reflection, tables};
 use super::row_groups::{Layout, RowGroups};
 use super::rows::{RowsForward, RowsInverse, Side};
 use super::simd::{Lanes, Number};
 use super::threads::{Divisible, MAX_FIELDS, Scratch, divide, divide_runs, pieces};
+use boundary::Boundary;
 use kernels::KernelTransform;
 
 /// Shortest line: an outermost and an innermost pass.
 const SHORTEST: usize = 8;
-
-/// Runs a task on an instruction set, on numbers `$number`.
-macro_rules! enter {
-    ($set:expr, $number:ty, $task:expr) => {
-        match $set {
-            InstructionSet::Portable => <$number as Number>::Portable::default().enter($task),
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2(set) => <$number as Number>::Avx2::from(set).enter($task),
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx512(set) => <$number as Number>::Avx512::from(set).enter($task),
-            #[cfg(target_arch = "aarch64")]
-            InstructionSet::Neon(set) => <$number as Number>::Neon::from(set).enter($task),
-        }
-    };
-}
-use enter;
-
-/// What differs between the two products.
-enum Boundary {
-    FreeSpace,
-    /// With the places of the frequencies in the transform along `y`.
-    Periodic {
-        places: Vec<Places>,
-    },
-}
-
-impl Boundary {
-    /// Shift of the frequencies, in units of their distance.
-    fn fraction(&self) -> f64 {
-        match self {
-            Self::FreeSpace => 0.25,
-            Self::Periodic { .. } => 0.0,
-        }
-    }
-
-    /// Parts of each column.
-    fn parts(&self) -> usize {
-        match self {
-            Self::FreeSpace => 2,
-            Self::Periodic { .. } => 1,
-        }
-    }
-
-    /// Row groups that are transformed together.
-    fn paired(&self) -> usize {
-        3 - self.parts()
-    }
-
-    /// Frequencies of a row of `length` points that are worked on.
-    fn frequencies(&self, length: usize) -> usize {
-        match self {
-            Self::FreeSpace => length,
-            Self::Periodic { .. } => length / 2 + 1,
-        }
-    }
-}
 
 /// Row groups of one field, so many of which are transformed together.
 struct Together<'a, N> {

@@ -1,6 +1,6 @@
 //! What mirrors change in a product: which frequencies the numbers of a place belong to, and where kernels take them.
 
-use super::super::block::Terms;
+use super::super::terms::Terms;
 use super::mirrored_columns::Sides;
 use super::mirrored_kernels::{MirroredTerm, SlotTerm};
 use super::paired_rows::Places;

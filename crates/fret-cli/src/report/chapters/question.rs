@@ -87,7 +87,7 @@ fn body(view: &Overview<'_>, body: &Body) -> Markup {
             Base::Rigid => { "on a rigid base" }
             Base::Elastic(substrate) => {
                 @if !coatings.is_empty() { "on a substrate, " }
-                (material(&substrate))
+                (material(substrate))
             }
         }
     }

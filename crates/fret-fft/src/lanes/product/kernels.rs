@@ -3,6 +3,7 @@
 use ndarray::{aview_mut1, s};
 
 use super::super::super::{Kernel, Parity};
+use super::super::instruction_set::{InstructionSet, enter};
 use super::super::memory::{AlignedNumbers, numbers_in_cache_line};
 use super::super::plan::LinePlan;
 use super::super::row_groups::Layout;
@@ -10,7 +11,7 @@ use super::super::rows::{RowsForward, Side};
 use super::super::simd::{Lanes, Number};
 use super::super::spectrum::{KeptPart, KernelColumn};
 use super::super::threads::{Scratch, divide, pieces};
-use super::{Boundary, InstructionSet, enter};
+use super::boundary::Boundary;
 
 /// The transform of kernels given by their quadrants.
 pub(super) struct KernelTransform {

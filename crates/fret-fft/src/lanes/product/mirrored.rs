@@ -1,6 +1,6 @@
 //! Planning of products in front of mirrors: where each frequency of the half and of the quarter finds its kernel.
 
-use super::super::super::block::Terms;
+use super::super::super::terms::Terms;
 use super::super::super::{Kernel, Parity};
 use super::super::memory::AlignedNumbers;
 use super::super::paired_rows::places;

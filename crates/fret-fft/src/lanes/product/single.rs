@@ -2,7 +2,7 @@
 
 use std::array::from_fn;
 
-use super::super::super::block::Terms;
+use super::super::super::terms::Terms;
 use super::super::memory::AlignedNumbers;
 use super::super::paired_rows::places;
 use super::super::reflection::Reflection;
