@@ -22,6 +22,7 @@ use crate::defect;
 use crate::estimate::{Estimate, NoBars};
 use crate::failure::{Failure, Unwritten};
 pub use crate::identify::Request as IdentifyRequest;
+pub use crate::instruments::{ReadInstrument, read_instruments_by};
 use crate::origin::Origin;
 use crate::output::{
     ERROR_BARS, Ending, ResultFolder, RunRecord, Standing, Wish, resolved_path, write_whole,
@@ -197,6 +198,7 @@ pub fn run_into(
         estimate_error,
         threads,
         quiet: true,
+        verbose: false,
     };
     Ok(run::run_into(wanted, guest)?)
 }

@@ -2,10 +2,12 @@
 
 pub mod check;
 mod crack;
+pub mod explain;
 pub mod export;
 mod fatigue;
 pub mod heat;
 pub mod identify;
+pub mod init;
 mod loaded_surfaces;
 pub mod plan;
 pub mod preparation;
@@ -13,6 +15,7 @@ pub mod report;
 pub mod run;
 pub mod run_observer;
 pub mod schema;
+pub mod shells;
 pub mod stress;
 mod stress_tables;
 pub mod study;

@@ -36,6 +36,8 @@ pub struct Wanted {
     pub threads: Option<u16>,
     /// Whether nothing but errors is told.
     pub quiet: bool,
+    /// Whether every increment and the methods are told, too.
+    pub verbose: bool,
 }
 
 impl Wanted {
@@ -59,12 +61,13 @@ impl Wanted {
             estimate_error: arguments.estimate_error,
             threads: arguments.threads,
             quiet: arguments.quiet,
+            verbose: arguments.verbose,
         })
     }
 
     /// Judges everything; writes nothing.
     pub fn prepared(self) -> Result<Preparation, Failure> {
-        let Self { case_file, folder, origin, wish, quiet, .. } = self;
+        let Self { case_file, folder, origin, wish, quiet, verbose, .. } = self;
         let folder = resolved_path(&folder);
         let earlier = if origin.is_none() && wish == Wish::Resume { Origin::below(&folder)? } else { None };
         let plan = case_file.planned_leaving_out(self.leave_out, origin.as_ref().or(earlier.as_ref()))?;
@@ -96,7 +99,18 @@ impl Wanted {
                 ));
             }
         }
-        Ok(Preparation { case_file, plan, origin, folder, standing, companion, threads, pool, claim })
+        Ok(Preparation {
+            case_file,
+            plan,
+            origin,
+            folder,
+            standing,
+            companion,
+            threads,
+            pool,
+            claim,
+            verbose,
+        })
     }
 }
 
@@ -114,6 +128,8 @@ pub struct Preparation {
     pub pool: rayon::ThreadPool,
     /// Memory for the run.
     pub claim: Cell<Option<Claim>>,
+    /// Whether every increment and the methods are told.
+    pub verbose: bool,
 }
 
 fn is_same_folder(one: &Path, other: &Path) -> bool {

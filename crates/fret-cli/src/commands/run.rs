@@ -17,7 +17,8 @@ use crate::defect;
 use crate::estimate::{Estimate, NoBars};
 use crate::failure::{Failure, Told};
 use crate::interrupt::{self, Listener};
-use crate::output::{ERROR_BARS, Ending, ResultFolder, RunRecord, Standing, Stored, write_whole};
+use crate::methods::of_plan;
+use crate::output::{ERROR_BARS, Ending, ResultFolder, RunRecord, Standing, Stored, resolved, write_whole};
 use crate::progress::Progress;
 use crate::summary::Summary;
 use crate::tally::Tally;
@@ -143,7 +144,7 @@ impl Preparation {
         let Departure { folder, tally, from, wall_s } = departure;
         let mut observer = RunObserver {
             folder,
-            progress: Progress::new(quiet, &self.title(), &tally),
+            progress: Progress::new(quiet, &self.title(), &tally).telling_all(self.verbose),
             tally,
             clock: Clock { started: Instant::now(), before_s: wall_s },
             grid: self.plan.grid,
@@ -205,6 +206,9 @@ impl Preparation {
             terminal::answer_in_json(&summary.to_json(failure.as_ref()))?;
         } else if failure.is_none() && !quiet {
             terminal::answer(&summary.table())?;
+            if self.verbose {
+                terminal::answer(&format!("\nfor the methods section:\n{}", of_plan(&resolved(&self.plan))))?;
+            }
         }
         match &failure {
             Some(Failure::Unwritten(_)) if !ResultFolder::can_go_on(&self.folder) => {

@@ -5,6 +5,7 @@ use maud::{Markup, html};
 use super::closed_form::Pressed;
 use super::overview::Overview;
 use super::partial_slip::PartialSlip;
+use crate::methods::paragraph;
 
 const LAYERS: &str = "T. C. O'Sullivan, R. B. King: Sliding contact stress field due to a spherical indenter on a layered \
                       elastic half-space. J. Tribol. 110 (1988) 235–240.";
@@ -60,7 +61,12 @@ pub fn chapter(view: &Overview<'_>) -> Markup {
         (pressed.is_some(), JOHNSON),
     ];
     let version = view.results.record["version"].as_str().unwrap_or_default();
+    let methods = paragraph(&view.results.record["plan"], version, view.results.record["commit"].as_str());
     html! {
+        section {
+            h2 { "For the methods section" }
+            p { (methods) }
+        }
         section {
             h2 { "To cite" }
             p { "The program, fretting " (version) ", with its file " code { "CITATION.cff" } "; and the works that this page builds on:" }
