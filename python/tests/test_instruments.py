@@ -142,3 +142,32 @@ def test_what_cannot_be_read_is_told(tmp_path: Path) -> None:
         fretting.plan(case(tmp_path, 'channel = "Current"'))
     with pytest.raises(fretting.CaseError, match=r"48 x 40 points on 0.48 x 0.4, but the grid has 24 x 20 cells"):
         fretting.plan(case(tmp_path, "", CELLS))
+
+
+@pytest.mark.parametrize("name", ["sdf-1.sdf", "nc-1.nc", "gwyddion-export-german.txt"])
+def test_files_of_others_have_the_points_size_and_heights_of_the_other_reader(tmp_path: Path, name: str) -> None:
+    path = Path(__file__).parents[2] / "tests" / "golden" / "instruments" / name
+    if not path.exists():
+        pytest.skip("needs a checkout of the repository")
+    (tmp_path / name).write_bytes(path.read_bytes())
+    theirs, sizes = read_by_the_other(path)
+    # as an image the text has its rows along y
+    keys = 'rows = "y"' if name.endswith(".txt") else ""
+    padded = case(tmp_path, f'{keys}\nresample = "linear"', (16, 16), str([float(side) for side in sizes]))
+    padded.write_text(padded.read_text().replace('file = "scan.nc"', f'file = "{name}"'))
+    treatment = record(padded)
+    assert treatment["points"] == list(theirs.shape)
+    assert treatment["size"] == pytest.approx(list(sizes), rel=1e-9)
+    # On 16 x 16 cells of the surface that is linear between the points: with theirs as an array the same to rounding.
+    question = {
+        "units": {"length": "mm", "force": "N"},
+        "grid": {"cells": [16, 16], "size": [float(side) for side in sizes]},
+        "upper": {"rigid": True},
+        "lower": {"substrate": {"young": 210e3, "poisson": 0.3}},
+        "profile": {"heights": {"values": theirs, "size": [float(side) for side in sizes], "resample": "linear"}},
+        "load": [{"normal_force": 1e-9, "increments": 1}],
+    }
+    (ours,) = fretting.plan(padded)["case"]["profile"]["heights"]
+    (other,) = fretting.plan(question)["case"]["profile"]["heights"]
+    assert ours["valley"] == pytest.approx(other["valley"], rel=1e-9)
+    assert ours["rms"] == pytest.approx(other["rms"], rel=1e-9)
