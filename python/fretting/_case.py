@@ -122,14 +122,13 @@ def plain(value: object, place: str, arrays: list[Reals] | None = None, depth: i
     raise _refusal("case", f"{place}: {type(value).__name__} is not a number, a word, a list or a table")
 
 
-_HOLES = (
-    "cells without a measurement must be filled in before, as SurfaceTopography's "
-    "topography.interpolate_undefined_data() does"
-)
+_HOLES = "every cell needs a number"
 
 
 def _field(values: npt.NDArray[Any], place: str) -> Reals:
     """Turn an array with a number for every cell into doubles; whether they are of use is the core's to say."""
+    if place.endswith(".heights.values") and values.dtype.kind == "f" and np.ma.is_masked(values):
+        values = np.ma.filled(values, np.nan)  # holes, which the core refuses, or fills if the case asks for it
     if np.ma.is_masked(values):
         count = int(np.count_nonzero(np.ma.getmaskarray(values)))
         raise _refusal("case", f"{place}: {count} masked values: {_HOLES}")

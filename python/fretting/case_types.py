@@ -173,6 +173,9 @@ class Evolution(TypedDict):
     """
 
 
+Fill: TypeAlias = Literal["none", "harmonic"]
+
+
 class FlatPunch(TypedDict):
     """
     A flat circular punch.
@@ -313,6 +316,9 @@ How a ramp runs.
 """
 
 
+Resample: TypeAlias = Literal["none", "linear"]
+
+
 Residual: TypeAlias = float | Sequence[float] | Sequence[Sequence[float]]
 
 
@@ -349,6 +355,9 @@ class RoundedPunch(TypedDict):
     """
     Radius of the flat [length], positive.
     """
+
+
+ScanSize: TypeAlias = Sequence[float] | float
 
 
 Scheme: TypeAlias = Literal["monolithic", "staggered"]
@@ -700,24 +709,58 @@ class Grid(TypedDict):
 
 class Heights(TypedDict):
     """
-    Topography, one height per cell: `file` or `values`.
+    Topography, one height per cell or a scan that is resampled: `file` or `values`.
     """
 
+    channel: NotRequired[str]
+    """
+    Channel of an instrument's file that has several, by its name. Default: its first with heights.
+    """
+    cut: NotRequired[Sequence[Sequence[float]]]
+    """
+    The part of the scan that is kept: from and to along x and along y [length], counted from its first corner; of a line scan one
+    pair. Default: all of it.
+    """
     detrend: NotRequired[Detrend]
     """
     What is subtracted: "none", the "mean", or the least-squares "plane". Default: "none".
     """
     file: NotRequired[str]
     """
-    A .npy file, or a text file with one row of numbers per line. Relative paths start at the case file.
+    A .npy file, a text file with one row of numbers per line or one point x, y, height, or a file of an instrument (sur, x3p, plu, opd,
+    al3d, ...; with `pip install 'fretting[instruments]'`). Relative paths start at the case file.
+    """
+    fill: NotRequired[Fill]
+    """
+    How points without a measurement are filled: "none" (they are refused), or "harmonic", the smoothest surface through the heights
+    around each hole (Laplace's equation). Default: "none".
+    """
+    long_cutoff: NotRequired[float]
+    """
+    Waves longer than this are taken off: what a Gaussian filter of this length [length] passes is subtracted. Default: all are kept.
     """
     of: NotRequired[Of]
     """
     What the heights describe: a "surface" (the highest point touches first) or the "gap" (the lowest does). Default: "surface".
     """
+    resample: NotRequired[Resample]
+    """
+    How measured points become heights of the cells: "none" (one point for every cell), or "linear", the mean over each cell of the
+    surface that is linear between the points; the grid lies in the middle of the scan. Default: "none".
+    """
     rows: NotRequired[Axis]
     """
     Axis along which the rows follow one another: "x" (index [i, j] = [x, y]) or "y" (rows of an image). Default: "x".
+    """
+    short_cutoff: NotRequired[float]
+    """
+    Waves shorter than this are taken off by a Gaussian filter, which passes half of a wave of this length [length] (ISO 16610-61).
+    Default: all are kept.
+    """
+    size: NotRequired[ScanSize]
+    """
+    Side lengths of the scan along x and y [length], as many spacings of its points as points; one length of a line scan. Default: those
+    that the file of an instrument states, or those of a list of points.
     """
     unit: NotRequired[float]
     """
@@ -725,7 +768,7 @@ class Heights(TypedDict):
     """
     values: NotRequired[Array]
     """
-    The heights themselves, as rows of numbers; from Python an array.
+    The heights themselves, as rows of numbers, or in a line contact numbers; from Python an array.
     """
 
 

@@ -54,6 +54,9 @@ class Identification:
         Cycles that are no whole loop, by number, with the reason.
     sliding_condition : str
         Of the fitted cycle: ``"partial_slip"``, ``"mixed"`` or ``"gross_slip"``.
+    sliding_conditions : list of dict
+        The sliding condition over the test: ``from`` and ``to``, numbers of cycles, and ``sliding_condition``,
+        ``"partial_slip"`` or ``"gross_slip"``. A change must explain more than five cycles.
     removed : dict
         What was taken off the log: offset, drift and bend of the drift of the displacement, offset of the force.
     noise : float
@@ -80,6 +83,7 @@ class Identification:
         }
         self.skipped: dict[float, str] = {entry["cycle"]: entry["why"] for entry in answer["skipped"]["cycles"]}
         self.sliding_condition: str = answer["sliding_condition"]
+        self.sliding_conditions: list[dict[str, Any]] = [dict(span) for span in answer["sliding_conditions"]]
         self.removed: dict[str, float | None] = dict(answer["removed"])
         self.noise: float = answer["noise"]
         self.normal_force: float = answer["normal_force"]

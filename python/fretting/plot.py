@@ -23,6 +23,7 @@ from fretting._bands import band, band_map, loop_band
 from fretting._meaning import VECTORS, ZONE_NAMES, in_units
 from fretting._meaning import label as _label
 from fretting._meaning import unit as _unit
+from fretting._style import scale, style
 
 if TYPE_CHECKING:
     import xarray
@@ -41,18 +42,20 @@ __all__ = [
     "loop_band",
     "loop_stack",
     "regime_map",
+    "scale",
     "section",
+    "style",
     "zones",
 ]
 
 Direction = Literal["x", "y"]
 Motion = Literal["x", "y", "twist"]
 
-ZONES = tuple(zip(ZONE_NAMES, ("#f2f2f2", "#2a6f97", "#f4a259"), strict=True))
+ZONES = tuple(zip(ZONE_NAMES, ("#f2f2f2", "#0072B2", "#E69F00"), strict=True))
 """Names and colours of the zones 0, 1, 2."""
 REGIMES = (
-    ("apart", "#f2f2f2"), ("frictionless", "#d9d9d9"), ("full_stick", "#2a6f97"), ("partial_slip", "#a8c686"),
-    ("mixed", "#e9d985"), ("gross_slip", "#f4a259"),
+    ("apart", "#f2f2f2"), ("frictionless", "#d9d9d9"), ("full_stick", "#0072B2"), ("partial_slip", "#56B4E9"),
+    ("mixed", "#F0E442"), ("gross_slip", "#E69F00"),
 )  # fmt: skip
 """Names and colours of the sliding conditions, from less to more slip."""
 
@@ -149,7 +152,7 @@ def loop_stack(
     shown = np.unique(np.linspace(0, len(rows) - 1, min(most, len(rows))).round().astype(int))
     axes: Any = ax
     if axes is None:
-        axes = _pyplot().figure(figsize=(6.4, 4.4), layout="constrained").add_subplot(projection="3d")
+        axes = _pyplot().figure(figsize=_size((6.4, 4.4)), layout="constrained").add_subplot(projection="3d")
     for one in shown:
         colour = colormaps[cmap](one / max(len(rows) - 1, 1))
         across, up = (history.increments[name][rows[one]] for name in (motion, force))
@@ -413,8 +416,18 @@ def _long_names(line: dict[str, Any]) -> dict[str, Any]:
 def _own_axes(axes: "Axes | None") -> "Axes":
     if axes is not None:
         return axes
-    own: Axes = _pyplot().subplots(figsize=(5.2, 4.0), layout="constrained")[1]
+    own: Axes = _pyplot().subplots(figsize=_size((5.2, 4.0)), layout="constrained")[1]
     return own
+
+
+def _size(own: tuple[float, float]) -> tuple[float, float]:
+    """Return the size of a figure: what a style has chosen, or its own [inches]."""
+    import matplotlib as mpl
+
+    chosen = mpl.rcParams["figure.figsize"]
+    if list(chosen) == list(mpl.rcParamsDefault["figure.figsize"]):
+        return own
+    return float(chosen[0]), float(chosen[1])
 
 
 def _component(along: str) -> None:

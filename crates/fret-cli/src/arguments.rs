@@ -29,7 +29,7 @@ pub enum Verb {
     Run(RunArguments),
     /// Validate a case: report all errors at once, each with line, column and a suggested fix
     Check {
-        /// The case file (TOML)
+        /// The case file (TOML); - reads it from standard input
         case: PathBuf,
         /// Start from a solved state, as `fret run` does
         #[arg(long, value_name = "RESULTS[:INCREMENT]")]
@@ -37,20 +37,44 @@ pub enum Verb {
     },
     /// Print the discretisation, the expected cost and the automatic simplifications; solve nothing
     Plan {
-        /// The case file (TOML)
+        /// The case file (TOML); - reads it from standard input
         case: PathBuf,
         /// Start from a solved state, as `fret run` does
         #[arg(long, value_name = "RESULTS[:INCREMENT]")]
         from: Option<String>,
     },
+    /// Write a case to begin with, with units and comments; without a name the list of them
+    Init {
+        /// Which one: ball-on-flat, coated, cylinder, rig-log, wear, rough, indentation
+        template: Option<String>,
+        /// The file to write [default: the name with .toml]
+        #[arg(long, short, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
+    /// Explain a warning: what it means for the numbers, and what to do; without a name the list of them
+    Explain {
+        /// Name of the warning, as in run.json, or the first words of its message
+        warning: Option<String>,
+    },
     /// Print the JSON Schema of the case file
     Schema,
+    /// Print completions of this command line for a shell
+    Completions {
+        /// Which shell
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page of this command
+    Man {
+        /// A folder to write the pages of all commands into
+        #[arg(long, short, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
     /// Write one HTML page of a run: loops, sections, zone maps, energy, convergence; needs no network
     Report {
         /// The folder of the results
         results: PathBuf,
         /// The page to write [default: report.html in that folder]
-        #[arg(long, value_name = "FILE")]
+        #[arg(long, short, value_name = "FILE")]
         out: Option<PathBuf>,
     },
     /// Convert the results of a run: NumPy, CSV, VTK
@@ -77,17 +101,20 @@ pub enum Verb {
 /// How to solve a case.
 #[derive(Debug, Args)]
 pub struct RunArguments {
-    /// The case file (TOML)
+    /// The case file (TOML); - reads it from standard input
     pub case: PathBuf,
     /// Folder for the results [default: results/ and the name of the case]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Number of threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,
     /// Print only errors
-    #[arg(long)]
+    #[arg(long, short)]
     pub quiet: bool,
+    /// Also print a line for every increment, and a paragraph for the methods section of a paper
+    #[arg(long, short, conflicts_with = "quiet")]
+    pub verbose: bool,
     /// Write into the folder even if it holds other files; only files of fret are replaced
     #[arg(long)]
     pub force: bool,
@@ -118,7 +145,7 @@ pub enum LeavingOut {
 /// Which resolutions to study, and what to compare them with.
 #[derive(Debug, Args)]
 pub struct StudyArguments {
-    /// The case file (TOML)
+    /// The case file (TOML); - reads it from standard input
     pub case: PathBuf,
     /// Numbers of cells along x; the grid keeps its size and shape [default, without any list: the case's value, a half, a quarter]
     #[arg(long, value_name = "N,...", value_delimiter = ',')]
@@ -134,13 +161,13 @@ pub struct StudyArguments {
     #[arg(long, value_name = "analytic|finest|FILE")]
     pub against: Option<String>,
     /// Folder for the table and the figure [default: results/ and the name of the case with -study]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Number of threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,
     /// Print only errors and the result
-    #[arg(long)]
+    #[arg(long, short)]
     pub quiet: bool,
 }
 
@@ -164,7 +191,7 @@ pub struct ExportArguments {
     )]
     pub vtk: bool,
     /// The file (npz) or folder (csv, vtk) to write [default: export.npz, csv, vtk in the folder of the results]
-    #[arg(long, value_name = "PATH")]
+    #[arg(long, short, value_name = "PATH")]
     pub out: Option<PathBuf>,
 }
 
@@ -198,7 +225,7 @@ pub struct StressArguments {
     #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,
     /// Print only errors
-    #[arg(long)]
+    #[arg(long, short)]
     pub quiet: bool,
 }
 
@@ -217,7 +244,7 @@ pub struct HeatArguments {
     #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,
     /// Print only errors
-    #[arg(long)]
+    #[arg(long, short)]
     pub quiet: bool,
 }
 
@@ -229,7 +256,7 @@ pub struct SweepArguments {
     /// or both: the samples at every point of the axes
     pub sweep: PathBuf,
     /// Folder for the results; points that are finished there are skipped [default: results/ and the name of the sweep]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Start every point from a solved state, as `fret run` does
     #[arg(long, value_name = "RESULTS[:INCREMENT]")]
@@ -238,7 +265,7 @@ pub struct SweepArguments {
     #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,
     /// Print only errors
-    #[arg(long)]
+    #[arg(long, short)]
     pub quiet: bool,
 }
 
@@ -266,12 +293,12 @@ pub struct IdentifyArguments {
     #[arg(long)]
     pub strict: bool,
     /// Folder for the answer [default: results/ and the name of the log with -identified]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Number of threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,
     /// Print only errors
-    #[arg(long)]
+    #[arg(long, short)]
     pub quiet: bool,
 }

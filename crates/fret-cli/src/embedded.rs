@@ -25,6 +25,7 @@ use fret_results::{
     CaseFile, ERROR_BARS, Ending, Origin, ResultFolder, RunRecord, Standing, Tally, Wish, resolved_path,
     write_whole,
 };
+pub use fret_results::{ReadInstrument, read_instruments_by};
 
 pub use crate::commands::run_observer::Guest;
 
@@ -52,6 +53,7 @@ pub fn run_into(
         estimate_error,
         threads,
         quiet: true,
+        verbose: false,
     };
     run::run_into(wanted, guest)
 }

@@ -13,11 +13,13 @@ mod failure;
 mod figures;
 mod identify;
 mod interrupt;
+mod methods;
 mod progress;
 mod report;
 mod study;
 mod summary;
 mod sweep;
+mod templates;
 mod terminal;
 mod threads;
 
@@ -67,7 +69,11 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         Verb::Identify(arguments) => commands::identify::identify(arguments, as_json),
         Verb::Check { case, from } => commands::check::check(case, from.as_deref(), as_json),
         Verb::Plan { case, from } => commands::plan::plan(case, from.as_deref(), as_json),
+        Verb::Init { template, out } => commands::init::init(template.as_deref(), out.as_deref(), as_json),
+        Verb::Explain { warning } => commands::explain::explain(warning.as_deref(), as_json),
         Verb::Schema => commands::schema::schema(),
+        Verb::Completions { shell } => commands::shells::completions(*shell),
+        Verb::Man { out } => commands::shells::manual(out.as_deref(), as_json),
         Verb::Report { results, out } => commands::report::report(results, out.as_deref(), as_json),
         Verb::Export(arguments) => commands::export::export(arguments, as_json),
         Verb::Study(arguments) => commands::study::study(arguments, as_json),

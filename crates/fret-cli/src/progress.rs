@@ -32,6 +32,8 @@ pub struct Progress {
     started: Instant,
     last_shown: Instant,
     tenths: usize,
+    /// Whether every increment has its line.
+    tells_all: bool,
 }
 
 #[derive(Debug)]
@@ -52,7 +54,8 @@ impl Progress {
         };
         let now = Instant::now();
         let tenths = passed_before * 10 / increments.max(1);
-        let progress = Self { face, increments, passed_before, started: now, last_shown: now, tenths };
+        let progress =
+            Self { face, increments, passed_before, started: now, last_shown: now, tenths, tells_all: false };
         if let Face::Live(bar) = &progress.face {
             bar.set_position(passed_before as u64);
             bar.reset_eta();
@@ -60,6 +63,12 @@ impl Progress {
             bar.enable_steady_tick(Duration::from_millis(120));
         }
         progress
+    }
+
+    /// The same with a line for every increment, if `all`.
+    #[must_use]
+    pub fn telling_all(self, all: bool) -> Self {
+        Self { tells_all: all, ..self }
     }
 
     /// An iteration was done.
@@ -95,7 +104,7 @@ impl Progress {
         let ends_stage = stage.is_some_and(|stage| stage.last == record.increment);
         let tenths = passed * 10 / self.increments.max(1);
         let due = tenths > self.tenths || self.last_shown.elapsed() >= self.plain_pause();
-        if !(ends_stage || (matches!(self.face, Face::Plain) && due)) {
+        if !(ends_stage || self.tells_all || (matches!(self.face, Face::Plain) && due)) {
             return;
         }
         self.tenths = tenths;

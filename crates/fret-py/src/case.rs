@@ -17,6 +17,7 @@ use pyo3::prelude::{Bound, Py, PyAny, PyAnyMethods, PyResult, Python, pyclass, p
 use serde_json::Value;
 
 use crate::error::{bad_value, refused};
+use crate::instruments;
 use crate::start::Start;
 
 /// A case that has passed every check.
@@ -37,7 +38,8 @@ impl Source {
         let file = |file: &str| case::content(&self.folder.join(file));
         let arrays = self.arrays.as_deref().unwrap_or_default();
         let start = self.start.as_ref().map(|start| start.get().0.solved.loads);
-        let attachments = Attachments { file: &file, arrays, start };
+        let scan = |name: &str, channel: Option<&str>| instruments::read(&self.folder.join(name), channel);
+        let attachments = Attachments { file: &file, scan: Some(&scan), arrays, start };
         let read = if self.arrays.is_some() {
             case::Case::from_json_with(&self.text, &self.name, attachments)
         } else {

@@ -13,6 +13,7 @@ mod fatigue;
 mod history;
 mod identify;
 mod in_common;
+mod instruments;
 mod kernels;
 mod plan;
 mod simulation;
@@ -71,6 +72,7 @@ mod _core {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        fret_cli::embedded::read_instruments_by(crate::instruments::read);
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

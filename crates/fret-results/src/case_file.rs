@@ -9,6 +9,7 @@ use fret_core::case::{Attachments, Case, CaseError, content, unreadable};
 use fret_core::history::Start;
 use fret_core::plan::{LeaveOut, Plan};
 
+use crate::instruments;
 use crate::place::stem;
 
 /// Bytes read at the most: one more than the core takes, so that an endless stream is refused and not read.
@@ -35,21 +36,19 @@ pub struct Beside {
 }
 
 impl CaseFile {
-    /// Reads a case file.
+    /// Reads a case file; `-` is standard input, where relative names start at the current folder.
     ///
     /// # Errors
     /// When the file cannot be read, or is no text.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
-        let refuse = |message: String| CaseError::plain(&path.display().to_string(), message);
-        let mut bytes = Vec::new();
-        File::open(path)
-            .and_then(|file| file.take(MOST_BYTES).read_to_end(&mut bytes))
-            .map_err(|error| refuse(why(path, &error)))?;
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let place = error.utf8_error().valid_up_to();
-            refuse(format!("not a text in UTF-8 (byte {place} is not part of a letter)"))
-        })?;
-        Ok(Self { path: path.to_owned(), text, beside: None })
+        if path == Path::new("-") {
+            let path = Path::new("stdin");
+            let text = text(path, io::stdin().lock())?;
+            return Ok(Self::of_text("stdin", text, Beside { folder: PathBuf::new(), contents: Vec::new() }));
+        }
+        let file = File::open(path)
+            .map_err(|error| CaseError::plain(&path.display().to_string(), why(path, &error)))?;
+        Ok(Self { path: path.to_owned(), text: text(path, file)?, beside: None })
     }
 
     /// Reads a case file that another file names: an ordinary one, so that nothing waits on a pipe.
@@ -67,11 +66,18 @@ impl CaseFile {
 
     /// A file the case names, looked for beside the case file.
     fn attachment(&self, name: &str) -> Result<Vec<u8>, String> {
-        let Some(beside) = &self.beside else {
-            return content(&self.path.parent().unwrap_or_else(|| Path::new("")).join(name));
+        let contents = self.beside.iter().flat_map(|beside| &beside.contents);
+        let in_memory = contents.into_iter().find(|(known, _)| known == name);
+        in_memory.map_or_else(|| content(&self.place(name)), |(_, content)| Ok(content.clone()))
+    }
+
+    /// Where a file lies that the case names.
+    fn place(&self, name: &str) -> PathBuf {
+        let folder = match &self.beside {
+            Some(beside) => beside.folder.as_path(),
+            None => self.path.parent().unwrap_or_else(|| Path::new("")),
         };
-        let in_memory = beside.contents.iter().find(|(known, _)| known == name);
-        in_memory.map_or_else(|| content(&beside.folder.join(name)), |(_, content)| Ok(content.clone()))
+        folder.join(name)
     }
 
     /// A text that came from no file; `name` stands for it in messages.
@@ -95,7 +101,14 @@ impl CaseFile {
     /// When the case is refused.
     pub fn case(&self, start: Option<&Arc<Start>>) -> Result<Case, CaseError> {
         let beside = |name: &str| self.attachment(name);
-        let attachments = Attachments::files(&beside).starting_from(start.map(|start| start.solved.loads));
+        let reader = instruments::reader();
+        let scan = |name: &str, channel: Option<&str>| match reader {
+            Some(reader) => reader(&self.place(name), channel),
+            None => Err(String::new()), // never asked
+        };
+        let attachments = Attachments::files(&beside)
+            .reading_scans(reader.is_some().then_some(&scan))
+            .starting_from(start.map(|start| start.solved.loads));
         Case::from_toml_with(&self.text, &self.name(), attachments)
     }
 
@@ -119,6 +132,17 @@ impl CaseFile {
         let case = self.case(start)?;
         Plan::starting_from(start.cloned(), case, leave_out)
     }
+}
+
+/// The text of a file that is open.
+fn text(path: &Path, file: impl Read) -> Result<String, CaseError> {
+    let refuse = |message: String| CaseError::plain(&path.display().to_string(), message);
+    let mut bytes = Vec::new();
+    file.take(MOST_BYTES).read_to_end(&mut bytes).map_err(|error| refuse(why(path, &error)))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let place = error.utf8_error().valid_up_to();
+        refuse(format!("not a text in UTF-8 (byte {place} is not part of a letter)"))
+    })
 }
 
 fn why(path: &Path, error: &io::Error) -> String {

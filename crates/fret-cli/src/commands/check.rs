@@ -5,7 +5,7 @@ use std::path::Path;
 use fret_core::run::plausibility;
 use serde_json::json;
 
-use crate::commands::plan::{cells, stages, warnings};
+use crate::commands::plan::{cells, cells_in_contact_radius, expected_contact, stages, warnings};
 use crate::failure::Failure;
 use crate::figures::counted;
 use crate::terminal;
@@ -21,6 +21,7 @@ pub fn check(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failu
             "case": case_file.name(),
             "cells": plan.grid.cells(),
             "size": plan.grid.size(),
+            "cells_in_contact_radius": cells_in_contact_radius(&plan),
             "increments": plan.increments,
             "warnings": plausibility::of_plan(&plan),
         });
@@ -29,9 +30,10 @@ pub fn check(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failu
     let warnings = warnings(&plan);
     let but = if warnings.is_empty() { "" } else { ", but" };
     terminal::answer(&format!(
-        "{}: good{but}\n  {}\n  {}: {}{}",
+        "{}: good{but}\n  {}\n{}  {}: {}{}",
         case_file.name(),
         cells(&plan),
+        expected_contact(&plan).map_or_else(String::new, |words| format!("  {words}\n")),
         counted(plan.increments, "increment"),
         stages(&plan),
         warnings,

@@ -27,6 +27,7 @@ struct Answer<'a> {
     #[serde(flatten)]
     plan: &'a Plan,
     status: &'static str,
+    cells_in_contact_radius: Option<f64>,
     increments_expected: Option<usize>,
     convolutions_expected: Option<usize>,
     seconds_expected: Option<f64>,
@@ -46,6 +47,7 @@ pub fn plan(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failur
     if as_json {
         return terminal::answer_in_json(&json!(Answer {
             status: "planned",
+            cells_in_contact_radius: cells_in_contact_radius(&plan),
             increments_expected: expected.map(|expected| expected.increments),
             convolutions_expected: expected.map(|expected| expected.convolutions),
             seconds_expected: expected.map(|expected| expected.seconds),
@@ -82,7 +84,7 @@ fn table(plan: &Plan, expected: Option<&Expectation>, lacking: Option<&MemoryErr
          solved     {coupling}\n\
          grid       {}\n\
          iterated   {}\n\
-         layers     {}\n\
+         {}layers     {}\n{}\
          history    {}: {}\n\
          residual   at most {:e} in every increment\n\
          memory     about {}{}\n\
@@ -94,7 +96,9 @@ fn table(plan: &Plan, expected: Option<&Expectation>, lacking: Option<&MemoryErr
         } else {
             "on the active subdomain around the contact; the rest of the grid is checked once per increment"
         },
+        expected_contact(plan).map_or_else(String::new, |words| format!("contact    {words}\n")),
         layers(plan),
+        heights(plan),
         counted(plan.increments, "increment"),
         stages(plan),
         plan.case.tolerance,
@@ -152,6 +156,34 @@ pub fn cells(plan: &Plan) -> String {
     )
 }
 
+/// Cells in the contact radius that is expected under the heaviest load: in the shorter one of an ellipse, in the half-width of a line
+/// contact. `None` where only the run can tell.
+pub fn cells_in_contact_radius(plan: &Plan) -> Option<f64> {
+    let ([x, y], [dx, dy]) = (plan.expected?.half_widths, plan.grid.spacing());
+    Some(if plan.grid.is_line() { x / dx } else { (x / dx).min(y / dy) })
+}
+
+/// The expected contact in words.
+pub fn expected_contact(plan: &Plan) -> Option<String> {
+    let cells = cells_in_contact_radius(plan)?;
+    let [x, y] = plan.expected?.half_widths;
+    let unit = plan.case.units.as_ref().map_or_else(String::new, |units| format!(" {}", units.length));
+    let is_round = (x - y).abs() <= 0.1 * x.max(y); // they are known to a twentieth
+    let what = match (plan.grid.is_line(), is_round) {
+        (true, _) => format!("half-width, about {}{unit}", two_digits(x)),
+        (false, true) => format!("contact radius, about {}{unit}", two_digits((x * y).sqrt())),
+        (false, false) => {
+            format!("shorter half-axis of the contact, about {} x {}{unit}", two_digits(x), two_digits(y))
+        }
+    };
+    Some(format!("{} cells in the expected {what}", two_digits(cells)))
+}
+
+/// A number that is known to a twentieth.
+fn two_digits(value: f64) -> f64 {
+    format!("{value:.1e}").parse().unwrap_or(value)
+}
+
 /// How many uniform layers stand for the coatings: of a graded one as many as its gradient asks for.
 fn layers(plan: &Plan) -> String {
     let bodies = [("upper", plan.case.bodies.upper()), ("lower", plan.case.bodies.lower())];
@@ -169,6 +201,15 @@ fn layers(plan: &Plan) -> String {
         })
         .collect();
     if layered.is_empty() { "none".to_owned() } else { layered.join(", ") }
+}
+
+/// Measured surfaces and what is done to them, a line each.
+fn heights(plan: &Plan) -> String {
+    let treated = plan.case.profile.heights.iter().filter_map(|heights| {
+        let words = heights.treatment()?.words().join(", ");
+        Some(format!("heights    {}: {words}\n", shortened(heights.source(), STAGE_LETTERS)))
+    });
+    treated.collect()
 }
 
 /// The stages in a line.

@@ -36,6 +36,8 @@ pub struct Wanted {
     pub threads: Option<u16>,
     /// Whether nothing but errors is told.
     pub quiet: bool,
+    /// Whether every increment and the methods are told, too.
+    pub verbose: bool,
 }
 
 impl Wanted {
@@ -55,12 +57,13 @@ impl Wanted {
             estimate_error: arguments.estimate_error,
             threads: arguments.threads,
             quiet: arguments.quiet,
+            verbose: arguments.verbose,
         })
     }
 
     /// Judges everything; writes nothing.
     pub fn prepared(self) -> Result<Preparation, Failure> {
-        let Self { case_file, folder, origin, wish, quiet, .. } = self;
+        let Self { case_file, folder, origin, wish, quiet, verbose, .. } = self;
         let folder = resolved_path(&folder);
         let earlier = if origin.is_none() && wish == Wish::Resume { Origin::below(&folder)? } else { None };
         let plan = case_file.planned_leaving_out(
@@ -95,7 +98,18 @@ impl Wanted {
                 ));
             }
         }
-        Ok(Preparation { case_file, plan, origin, folder, standing, companion, threads, pool, claim })
+        Ok(Preparation {
+            case_file,
+            plan,
+            origin,
+            folder,
+            standing,
+            companion,
+            threads,
+            pool,
+            claim,
+            verbose,
+        })
     }
 }
 
@@ -113,6 +127,8 @@ pub struct Preparation {
     pub pool: rayon::ThreadPool,
     /// Memory for the run.
     pub claim: Cell<Option<Claim>>,
+    /// Whether every increment and the methods are told.
+    pub verbose: bool,
 }
 
 fn is_same_folder(one: &Path, other: &Path) -> bool {

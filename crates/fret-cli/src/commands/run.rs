@@ -17,6 +17,7 @@ use crate::defect;
 use crate::estimate::{Estimate, NoBars};
 use crate::failure::{Failure, Told};
 use crate::interrupt::{self, Listener};
+use crate::methods::of_plan;
 use crate::progress::Progress;
 use crate::summary::Summary;
 use crate::terminal;
@@ -151,7 +152,7 @@ impl Preparation {
         let Departure { folder, tally, from, wall_s } = departure;
         let mut observer = RunObserver {
             folder,
-            progress: Progress::new(quiet, &self.title(), &tally),
+            progress: Progress::new(quiet, &self.title(), &tally).telling_all(self.verbose),
             tally,
             clock: Clock { started: Instant::now(), before_s: wall_s },
             grid: self.plan.grid,
@@ -214,6 +215,9 @@ impl Preparation {
             terminal::answer_in_json(&summary.to_json(failure.as_ref()))?;
         } else if failure.is_none() && !quiet {
             terminal::answer(&summary.table())?;
+            if self.verbose {
+                terminal::answer(&format!("\nfor the methods section:\n{}", of_plan(&self.plan.to_json())))?;
+            }
         }
         match &failure {
             Some(Failure::Unwritten(_)) if !ResultFolder::can_go_on(&self.folder) => {

@@ -1,5 +1,6 @@
 //! A measured log, identified by a case: what the core finds (`fret_core::identify`), as a record, a text, a table and a page.
 
+mod over_cycles;
 mod page;
 mod record;
 mod summary;

@@ -3,6 +3,7 @@
 use fret_core::identify::{Cycle, Identification};
 use serde_json::{Map, Value, json};
 
+use super::over_cycles;
 use super::table::COLUMNS;
 
 /// Rows without a number that are named, at the most.
@@ -44,6 +45,7 @@ pub fn record(found: &Identification) -> Value {
         "turned": {"force": found.turned.turned, "order_of_rows": found.turned.backwards},
         "skipped": skipped(found),
         "sliding_condition": found.regime,
+        "sliding_conditions": over_cycles::record(found),
         "contact_stiffness": found.contact_stiffness,
         "cycles": found.cycles.iter().map(row).collect::<Vec<_>>(),
         "measured": {"displacement": fitted.displacement, "force": fitted.force},

@@ -2,6 +2,7 @@
 
 use fret_core::identify::{Identification, Quantities};
 
+use super::over_cycles::in_words;
 use super::record::rows_in_words;
 use crate::figures::figure;
 use crate::summary::regime;
@@ -55,6 +56,7 @@ pub fn summary(found: &Identification) -> String {
         }
     }
     lines.push(format!("  sliding condition      {}", regime(found.regime)));
+    lines.extend(in_words(found).map(|words| format!("  over the cycles        {words}")));
     let removed = &found.removed;
     lines.push(format!(
         "  removed from the log: displacement offset {}, drift {} over the cycle{}; force offset {}",

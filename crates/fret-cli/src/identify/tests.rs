@@ -48,6 +48,12 @@ fn a_cycle_that_was_skipped_is_named_and_empty() {
     let energy = json["cycles"][3]["dissipated_energy"].as_f64().unwrap();
     assert!(lines[4].starts_with(&format!("4,100,{energy},")), "{}", lines[4]);
     assert_eq!(json["sliding_condition"], "gross_slip");
+    // all cycles that are loops slide, the skipped one between them changes nothing
+    let spans = json["sliding_conditions"].as_array().unwrap();
+    assert_eq!(spans.len(), 1);
+    assert_eq!((&spans[0]["from"], &spans[0]["to"]), (&serde_json::json!(1.0), &serde_json::json!(4.0)));
+    assert!(text.contains("over the cycles        gross slip in cycles 1 to 4"), "{text}");
+    assert!(answer.page().contains("dissipated energy over the cycles"));
     assert!(answer.page().contains("Fretting loops of log.csv"));
 }
 

@@ -5,6 +5,7 @@ use fret_core::study::{PartialSlip, Pressed};
 use maud::{Markup, html};
 
 use super::overview::Overview;
+use crate::methods::paragraph;
 
 const LAYERS: &str = "T. C. O'Sullivan, R. B. King: Sliding contact stress field due to a spherical indenter on a layered \
                       elastic half-space. J. Tribol. 110 (1988) 235–240.";
@@ -61,8 +62,14 @@ pub fn chapter(view: &Overview<'_>) -> Markup {
         (partial_slip && !is_line && !view.cycles().is_empty(), DERESIEWICZ),
         (pressed.is_some(), JOHNSON),
     ];
-    let version = &view.results.record.version;
+    let record = &view.results.record;
+    let (version, commit) = (&record.version, Some(record.commit.as_str()));
+    let methods = paragraph(&view.results.plan().to_json(), version, commit);
     html! {
+        section {
+            h2 { "For the methods section" }
+            p { (methods) }
+        }
         section {
             h2 { "To cite" }
             p { "The program, fretting " (version) ", with its file " code { "CITATION.cff" } "; and the works that this page builds on:" }

@@ -10,6 +10,7 @@ mod heated;
 mod hostile;
 mod interrupted;
 mod leave_out;
+mod manners;
 mod memory;
 mod misleading;
 mod places;

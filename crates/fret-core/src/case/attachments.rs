@@ -6,16 +6,23 @@ use std::path::Path;
 
 use ndarray::Array2;
 
+use super::topography::Scan;
 use crate::model::LoadStep;
 
 /// Bytes of a file that a case names, at the most: the cells of the largest grid at sixteen letters each.
 pub const MOST_BYTES: u64 = 1 << 30;
+
+/// Reads heights of an instrument's file.
+pub type ReadScan<'a> = dyn Fn(&str, Option<&str>) -> Result<Scan, String> + 'a;
 
 /// Files and arrays that come with the text of a case, and the loads its history starts from.
 #[derive(Clone, Copy)]
 pub struct Attachments<'a> {
     /// Content of a file by the name the case gives it, or in a few words why it cannot be had.
     pub file: &'a dyn Fn(&str) -> Result<Vec<u8>, String>,
+    /// Heights of a file of an instrument by its name and that of a channel (the first with heights, if none is named), or why they cannot
+    /// be had; `None`: such files are not read here.
+    pub scan: Option<&'a ReadScan<'a>>,
     /// Arrays handed over, named in the case by their number: `{ array = n }`.
     pub arrays: &'a [Array2<f64>],
     /// What is prescribed where the history starts; `None`: bodies that have not touched yet.
@@ -30,7 +37,13 @@ impl<'a> Attachments<'a> {
 
     /// Files only.
     pub fn files(file: &'a dyn Fn(&str) -> Result<Vec<u8>, String>) -> Self {
-        Self { file, arrays: &[], start: None }
+        Self { file, scan: None, arrays: &[], start: None }
+    }
+
+    /// The same with a reader of instruments' files.
+    #[must_use]
+    pub fn reading_scans(self, scan: Option<&'a ReadScan<'a>>) -> Self {
+        Self { scan, ..self }
     }
 
     /// The same for a history that starts from a solved state.

@@ -63,7 +63,7 @@ pub(super) fn on_cells(
 }
 
 /// The grid that the points lie on, where they fill one.
-fn own_cells(points: &ArrayView2<'_, f64>) -> Option<[usize; 2]> {
+pub(super) fn own_cells(points: &ArrayView2<'_, f64>) -> Option<[usize; 2]> {
     let levels = |axis: usize| {
         let mut values: Vec<f64> = points.column(axis).to_vec();
         values.sort_unstable_by(f64::total_cmp);

@@ -6,11 +6,12 @@ use super::arrays::{self, Cells, Layout};
 use super::file::CaseFile;
 use super::holes::hole;
 use super::judge::Judge;
-use super::numbers;
+use super::numbers::Head;
 use super::surface_file::{
     CylinderFile, EllipsoidFile, HeightsFile, LENGTH, OfFile, ProfileFile, RoundedPunchFile, SphereFile,
     WaveFile,
 };
+use super::topography::{self, Content, Measured, Question};
 use crate::document::At;
 use crate::model::{Axis, Detrend, Heights, Profile, Shape};
 
@@ -139,22 +140,20 @@ impl Part<'_, '_> {
                 "of = \"surface\", or [profile.heights]",
             );
         }
-        let unit = given.unit.unwrap_or(1.0);
         if self.cells.is_none() || !self.judge.places.are_whole_in(&place) {
             return None;
         }
-        let (source, at, array) = match (&given.file, &given.values) {
+        let keys = &given.treatment;
+        let (source, at, content) = match (&given.file, &given.values) {
             (Some(file), None) => {
                 let key = format!("{place}.file");
-                (
-                    file.value.as_str(),
-                    file.span(),
-                    arrays::of_file(self.judge, &key, file.span(), &file.value)?,
-                )
+                let content = topography::content(self.judge, (&key, file.span()), &file.value, keys)?;
+                (file.value.as_str(), file.span(), content)
             }
             (None, Some(values)) => {
                 let key = format!("{place}.values");
-                ("values", values.span(), arrays::given(self.judge, &key, values.span(), &values.value)?)
+                let array = arrays::given(self.judge, &key, values.span(), &values.value)?;
+                ("values", values.span(), Content::Numbers(array, Head::default()))
             }
             (Some(_), Some(values)) => {
                 return self.judge.refuse(
@@ -171,23 +170,56 @@ impl Part<'_, '_> {
                 );
             }
         };
-        let layout = Layout { rows: given.rows.unwrap_or(Axis::X), unit };
-        let mut array = arrays::fitting(self.judge, self.cells, (&place, at.clone()), array, layout)?;
+        let rows = given.rows.unwrap_or(Axis::X);
+        let sign = if of_gap.is_some() { -1.0 } else { 1.0 };
+        let detrend = given.detrend.unwrap_or(Detrend::None);
+        let question = Question { place: &place, span: at.clone(), keys, cells: self.cells? };
+        let (mut array, unit) = match content {
+            Content::Numbers(array, head) => {
+                let unit = question.unit(self.judge, given.unit, &head)?;
+                if keys.is_asked() {
+                    let measured = question.of_array(self.judge, (array, &head), Layout { rows, unit })?;
+                    return self.treated(&question, measured, (source, sign, detrend));
+                }
+                (array, unit)
+            }
+            Content::Scan(scan) => {
+                let measured = question.of_scan(self.judge, scan, given.unit, given.rows.is_some())?;
+                return self.treated(&question, measured, (source, sign, detrend));
+            }
+        };
+        array = arrays::fitting(self.judge, self.cells, (&place, at.clone()), array, Layout { rows, unit })?;
         if let Some((cell, mark, [low, high])) = hole(&array) {
             return self.judge.refuse(
                 at,
                 format!(
                     "{place}: height {cell:?} is {mark:?}, and all others lie between {low:?} and {high:?}: a cell without a measurement"
                 ),
-                numbers::HOLES,
+                topography::FILL,
             );
         }
-        let sign = if of_gap.is_some() { -1.0 } else { 1.0 };
         array.mapv_inplace(|height| sign * unit * height);
-        let detrend = given.detrend.unwrap_or(Detrend::None);
         match Heights::new(source, array, detrend) {
             Ok(heights) => Some(heights),
-            Err(error) => self.judge.refuse(at, format!("{place}: {error}"), numbers::HOLES),
+            Err(error) => self.judge.refuse(at, format!("{place}: {error}"), topography::FILL),
+        }
+    }
+
+    /// Measured heights after all that is done to them; `sign`: -1 for a gap.
+    fn treated(
+        &mut self,
+        question: &Question<'_>,
+        measured: Measured,
+        (source, sign, detrend): (&str, f64, Detrend),
+    ) -> Option<Heights> {
+        let (mut heights, record) = question.treated(self.judge, measured, detrend)?;
+        heights.mapv_inplace(|height| sign * height);
+        match Heights::new(source, heights, Detrend::None) {
+            Ok(heights) => Some(heights.treated(record)),
+            Err(error) => {
+                let message = format!("{}: {error}", question.place);
+                self.judge.refuse(question.span.clone(), message, topography::FILL)
+            }
         }
     }
 }

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
+use super::topography::keys::TreatmentFile;
 use crate::document::{At, Range, Table};
 use crate::model::{Axis, Detrend, EvolutionDriver};
 
@@ -115,11 +116,12 @@ pub(super) struct WaveFile {
     pub wavelength_y: Option<f64>,
 }
 
-/// Topography, one height per cell: `file` or `values`.
+/// Topography, one height per cell or a scan that is resampled: `file` or `values`.
 #[derive(Table, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub(super) struct HeightsFile {
-    /// A .npy file, or a text file with one row of numbers per line or one point x, y, height. Relative paths start at the case file.
+    /// A .npy file, a text file with one row of numbers per line or one point x, y, height, or a file of an instrument (sur, x3p, plu, opd,
+    /// al3d, ...; with `pip install 'fretting[instruments]'`). Relative paths start at the case file.
     pub file: Option<At<String>>,
     /// The heights themselves, as rows of numbers, or in a line contact numbers; from Python an array.
     pub values: Option<At<ArrayFile>>,
@@ -132,6 +134,10 @@ pub(super) struct HeightsFile {
     pub detrend: Option<Detrend>,
     /// Axis along which the rows follow one another: "x" (index [i, j] = [x, y]) or "y" (rows of an image). Default: "x".
     pub rows: Option<Axis>,
+    /// What is done to measured points.
+    #[table(flatten)]
+    #[schemars(flatten)]
+    pub treatment: TreatmentFile,
 }
 
 /// What heights describe.

@@ -85,6 +85,25 @@ pub enum Concern {
 }
 
 impl Concern {
+    /// All of them, in the order of the manual.
+    pub const ALL: [Self; 15] = [
+        Self::FewCells,
+        Self::StifferThanDiamond,
+        Self::ContactRadiusOverBodyRadius,
+        Self::ApproachOverContactRadius,
+        Self::ApproachOverLayerThickness,
+        Self::ShiftOverContactRadius,
+        Self::SteepTopography,
+        Self::CoatingThinnerThanCell,
+        Self::WearDepthOverCoatingThickness,
+        Self::ComplianceSpread,
+        Self::FrictionChangesInOneCycle,
+        Self::ContactNearEdge,
+        Self::PressingInFewIncrements,
+        Self::FewCellsPerWave,
+        Self::BulkStrain,
+    ];
+
     /// Its name.
     pub fn name(self) -> &'static str {
         match self {
@@ -107,7 +126,7 @@ impl Concern {
     }
 
     /// What the number is.
-    fn quantity(self) -> &'static str {
+    pub fn quantity(self) -> &'static str {
         match self {
             Self::FewCells => "cells in the contact radius",
             Self::StifferThanDiamond => {
@@ -144,7 +163,7 @@ impl Concern {
     }
 
     /// Where the bound lies.
-    fn bound(self) -> f64 {
+    pub fn bound(self) -> f64 {
         match self {
             Self::FewCells => CELLS_IN_RADIUS,
             Self::StifferThanDiamond => 1.0,
@@ -165,7 +184,7 @@ impl Concern {
     }
 
     /// What it means for the numbers.
-    fn consequence(self) -> &'static str {
+    pub fn consequence(self) -> &'static str {
         match self {
             Self::FewCells => "the contact is under-resolved; errors may be large",
             Self::StifferThanDiamond => "moduli are in the unit that follows from [units]: MPa for mm and N",
@@ -196,7 +215,7 @@ impl Concern {
     }
 
     /// What to do.
-    fn help(self) -> &'static str {
+    pub fn help(self) -> &'static str {
         match self {
             Self::FewCells => {
                 "more cells or a smaller grid (size = \"auto\" finds it); on a rough surface finer sampling"
@@ -347,6 +366,7 @@ mod tests {
             // The name in tables is that of the files.
             assert_eq!(serde_json::to_string(&name).unwrap(), format!("\"{}\"", name.name()));
         }
+        assert_eq!(CONCERNS.map(|(name, ..)| name), Concern::ALL);
         let words: std::collections::HashSet<_> =
             CONCERNS.iter().flat_map(|(name, ..)| [name.quantity(), name.consequence()]).collect();
         assert_eq!(words.len(), 30, "every concern has its own words");

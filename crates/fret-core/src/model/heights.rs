@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize, Serializer};
 
 use super::digest::digest;
 use super::shape::ProfileError;
+use super::treatment::Treatment;
 use crate::document::Table;
 
 /// What is subtracted from heights.
@@ -28,6 +29,21 @@ pub enum Detrend {
 pub struct Heights {
     source: String,
     depths: Arc<Array2<f64>>,
+    treatment: Option<Box<Treatment>>,
+}
+
+impl Detrend {
+    /// Subtracts it from heights.
+    pub fn remove_from(self, heights: &mut Array2<f64>) {
+        match self {
+            Self::None => {}
+            Self::Mean => {
+                let mean = heights.sum() / heights.len() as f64;
+                *heights -= mean;
+            }
+            Self::Plane => take_off_plane(heights),
+        }
+    }
 }
 
 impl Heights {
@@ -40,17 +56,26 @@ impl Heights {
         if let Some((at, value)) = heights.indexed_iter().find(|(_, value)| !value.is_finite()) {
             return Err(ProfileError::Height { at: [at.0, at.1], value: *value });
         }
-        match detrend {
-            Detrend::None => {}
-            Detrend::Mean => {
-                let mean = heights.sum() / heights.len() as f64;
-                heights -= mean;
-            }
-            Detrend::Plane => take_off_plane(&mut heights),
-        }
+        detrend.remove_from(&mut heights);
         let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         heights.mapv_inplace(|height| highest - height);
-        Ok(Self { source: source.to_owned(), depths: Arc::new(heights) })
+        Ok(Self { source: source.to_owned(), depths: Arc::new(heights), treatment: None })
+    }
+
+    /// The same with the record of what was done to them.
+    #[must_use]
+    pub fn treated(self, treatment: Treatment) -> Self {
+        Self { treatment: Some(Box::new(treatment)), ..self }
+    }
+
+    /// Where they came from.
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
+    /// What was done to them, where they came from an instrument or were treated.
+    pub fn treatment(&self) -> Option<&Treatment> {
+        self.treatment.as_deref()
     }
 
     /// Depth of every cell below the highest point [length], shape `(nx, ny)`.
@@ -85,13 +110,17 @@ pub struct HeightsSummary {
     pub valley: f64,
     /// Hash of their depths.
     pub fnv1a64: String,
+    /// What was done to them, where they came from an instrument or were treated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub treatment: Option<Treatment>,
 }
 
 impl Serialize for Heights {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let valley = self.depths.iter().copied().fold(0.0, f64::max);
         let (source, fnv1a64) = (self.source.clone(), fingerprint(&self.depths));
-        HeightsSummary { source, cells: self.cells(), rms: self.rms(), valley, fnv1a64 }.serialize(serializer)
+        let (cells, rms, treatment) = (self.cells(), self.rms(), self.treatment().cloned());
+        HeightsSummary { source, cells, rms, valley, fnv1a64, treatment }.serialize(serializer)
     }
 }
 

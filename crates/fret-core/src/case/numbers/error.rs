@@ -76,6 +76,19 @@ pub enum NumbersError {
 }
 
 impl NumbersError {
+    /// Whether the bytes may be those of a format that is not read here.
+    pub fn may_be_another_format(&self) -> bool {
+        matches!(
+            self,
+            Self::Bytes(_) | Self::Word { why: NoNumber::Other, .. } | Self::Ragged { .. } | Self::Empty(_)
+        )
+    }
+
+    /// Whether a value was not measured.
+    pub fn is_hole(&self) -> bool {
+        matches!(self, Self::Word { why: NoNumber::Hole, .. })
+    }
+
     /// What can be read.
     pub(in crate::case) const A_FILE: &str =
         "a .npy file, or a text file with one row of numbers per line; relative paths start at the case file";
@@ -96,5 +109,4 @@ impl NumbersError {
 }
 
 /// What to do about cells without a measurement.
-pub(in crate::case) const HOLES: &str = "cells without a measurement must be filled in before: in Python SurfaceTopography's \
-                                topography.interpolate_undefined_data(), or in the program of the instrument";
+const HOLES: &str = "every cell needs a number; heights are filled with fill = \"harmonic\" beside the file";

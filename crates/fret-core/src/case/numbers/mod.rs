@@ -1,10 +1,11 @@
 //! An array of numbers from the bytes of a file: `NumPy`'s .npy (`npy`), or a text with a row a line (`rows`). Below them: the
-//! letters of old and new encodings (`letters`), what commas are (`commas`), what is no row (`comments`), one number from one word
-//! (`word`). Reading the file is somebody else's.
+//! letters of old and new encodings (`letters`), what commas are (`commas`), what is no row (`comments`), what the lines above them say
+//! (`head`), one number from one word (`word`). Reading the file is somebody else's.
 
 mod commas;
 mod comments;
 mod error;
+mod head;
 mod letters;
 mod npy;
 mod rows;
@@ -13,8 +14,8 @@ mod word;
 use ndarray::Array2;
 
 pub use comments::{Skipped, is_comment};
-pub(super) use error::HOLES;
 pub use error::NumbersError;
+pub(super) use head::{Head, head};
 pub use letters::{NoText, letters};
 pub use word::{NoNumber, number};
 
@@ -25,10 +26,22 @@ pub use word::{NoNumber, number};
 /// # Errors
 /// When the bytes are neither, are cut off, or hold anything but finite numbers in rows of one length (in a .npy file, real numbers).
 pub fn numbers(bytes: &[u8]) -> Result<Array2<f64>, NumbersError> {
+    read(bytes, false)
+}
+
+/// The same with NaN where a word or an empty cell stands for a value that was not measured.
+///
+/// # Errors
+/// As [`numbers`].
+pub(super) fn numbers_with_holes(bytes: &[u8]) -> Result<Array2<f64>, NumbersError> {
+    read(bytes, true)
+}
+
+fn read(bytes: &[u8], takes_holes: bool) -> Result<Array2<f64>, NumbersError> {
     if bytes.starts_with(npy::MAGIC) {
         npy::npy(bytes)
     } else {
-        rows::rows(&letters(bytes).map_err(NumbersError::Bytes)?)
+        rows::rows(&letters(bytes).map_err(NumbersError::Bytes)?, takes_holes)
     }
 }
 
@@ -64,7 +77,9 @@ mod tests {
             ("1 2\n3\n", "line 2: a row of 1 numbers after rows of 2"),
             ("1 2\n3 four\n", "line 2, column 2: \"four\" is not a number"),
             ("# nothing\n", "a text without a number (line 1 was read as a comment)"),
-            ("h=650 w=650\n1 2\n", "line 1, column 1: \"h=650\" is not a number"),
+            ("1 h=650\n1 2\n", "line 1, column 2: \"h=650\" is not a number"),
+            ("h=650 w=650\n", "line 1, column 1: \"h=650\" is not a number"),
+            ("1 2\nh=650\n3 4\n", "line 2, column 1: \"h=650\" is not a number"),
             (
                 "% a\n# b\n1 x\n",
                 "line 3, column 2: \"x\" is not a number (lines 1 to 2 were read as comments)",

@@ -1,0 +1,68 @@
+//! `fret explain`: what a warning means, and what to do.
+
+use fret_core::history::Concern;
+use serde_json::{Value, json};
+
+use crate::failure::Failure;
+use crate::terminal;
+
+/// Where all of them stand in the manual.
+const PAGE: &str = "reference/messages/#warnings";
+
+/// Tells what is known of a warning, or lists all.
+pub fn explain(name: Option<&str>, as_json: bool) -> Result<(), Failure> {
+    let Some(name) = name else { return list(as_json) };
+    let asked = plain(name);
+    let concern = Concern::ALL.into_iter().find(|concern| {
+        // by its name, or by the words that a message begins with
+        plain(concern.name()) == asked || plain(concern.quantity()) == asked
+    });
+    let Some(concern) = concern else {
+        let near = Concern::ALL.into_iter().filter(|concern| plain(concern.name()).contains(&asked));
+        let near: Vec<&str> = near.map(Concern::name).collect();
+        let help = if near.is_empty() || asked.is_empty() {
+            "`fret explain` lists them all".to_owned()
+        } else {
+            format!("did you mean {}?", near.join(", "))
+        };
+        return Err(Failure::Call(format!("no warning is called {name:?}"), help));
+    };
+    if as_json {
+        return terminal::answer_in_json(&of(concern));
+    }
+    let side = if concern.warns_below() { "at least" } else { "at most" };
+    terminal::answer(&format!(
+        "{}\n\n  what      {}\n  bound     {side} {}\n  meaning   {}\n  to do     {}\n  manual    {PAGE}",
+        concern.name(),
+        concern.quantity(),
+        concern.bound(),
+        concern.consequence(),
+        concern.help()
+    ))
+}
+
+fn list(as_json: bool) -> Result<(), Failure> {
+    if as_json {
+        let all: Vec<Value> = Concern::ALL.into_iter().map(of).collect();
+        return terminal::answer_in_json(&json!({ "warnings": all }));
+    }
+    let lines = Concern::ALL.map(|concern| format!("  {:<35}{}", concern.name(), concern.quantity()));
+    terminal::answer(&format!("warnings, `fret explain NAME` tells more:\n{}", lines.join("\n")))
+}
+
+fn of(concern: Concern) -> Value {
+    json!({
+        "name": concern.name(),
+        "quantity": concern.quantity(),
+        "bound": concern.bound(),
+        "warns_below": concern.warns_below(),
+        "consequence": concern.consequence(),
+        "help": concern.help(),
+        "page": PAGE,
+    })
+}
+
+/// Letters and digits alone, small: dashes, blanks and underscores do not matter.
+fn plain(name: &str) -> String {
+    name.chars().filter(|letter| letter.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+}

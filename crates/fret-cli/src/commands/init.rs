@@ -1,0 +1,65 @@
+//! `fret init`: a case to begin with.
+
+use std::fs::{self, OpenOptions};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use serde_json::json;
+
+use crate::failure::{Failure, Unwritten};
+use crate::templates::{TEMPLATES, Template};
+use crate::terminal;
+
+/// Writes a template, or tells which there are.
+pub fn init(name: Option<&str>, out: Option<&Path>, as_json: bool) -> Result<(), Failure> {
+    let Some(name) = name else { return list(as_json) };
+    let template = TEMPLATES.iter().find(|template| template.name == name).ok_or_else(|| {
+        let names: Vec<&str> = TEMPLATES.iter().map(|template| template.name).collect();
+        Failure::Call(format!("no template is called {name:?}"), format!("there are: {}", names.join(", ")))
+    })?;
+    let path = out.map_or_else(|| PathBuf::from(format!("{name}.toml")), Path::to_owned);
+    let written = write(template, &path)?;
+    if as_json {
+        return terminal::answer_in_json(&json!({ "status": "written", "template": name, "files": written }));
+    }
+    let path = path.display();
+    terminal::answer(&format!(
+        "written: {}\nnext: fret check {path}; fret plan {path}; fret run {path}",
+        written.join(", ")
+    ))
+}
+
+fn list(as_json: bool) -> Result<(), Failure> {
+    if as_json {
+        let all = TEMPLATES.iter().map(|template| json!({ "name": template.name, "about": template.about }));
+        return terminal::answer_in_json(&json!({ "templates": all.collect::<Vec<_>>() }));
+    }
+    let lines = TEMPLATES.iter().map(|template| format!("  {:<14}{}", template.name, template.about));
+    terminal::answer(&format!(
+        "cases to begin with, `fret init NAME` writes one:\n{}",
+        lines.collect::<Vec<_>>().join("\n")
+    ))
+}
+
+/// Writes the case and what it names beside it; nothing that exists is replaced.
+fn write(template: &Template, path: &Path) -> Result<Vec<String>, Failure> {
+    let folder = path.parent().unwrap_or_else(|| Path::new(""));
+    let beside = template.beside.iter().map(|&(name, content)| (folder.join(name), content));
+    let files: Vec<(PathBuf, &str)> = [(path.to_owned(), template.case)].into_iter().chain(beside).collect();
+    if let Some((there, _)) = files.iter().find(|(path, _)| path.exists()) {
+        let help = "choose another name with --out FILE, or move it away".to_owned();
+        return Err(Failure::Call(format!("{}: exists already", there.display()), help));
+    }
+    if !folder.as_os_str().is_empty() {
+        fs::create_dir_all(folder).map_err(Unwritten::at(folder))?;
+    }
+    for (path, content) in &files {
+        OpenOptions::new()
+            .write(true)
+            .create_new(true)
+            .open(path)
+            .and_then(|mut file| file.write_all(content.as_bytes()))
+            .map_err(Unwritten::at(path))?;
+    }
+    Ok(files.iter().map(|(path, _)| path.display().to_string()).collect())
+}

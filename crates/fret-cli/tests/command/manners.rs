@@ -1,0 +1,144 @@
+//! What makes the command easy to live with: cases to begin with, warnings explained, standard input, shells, short options.
+
+use std::io::Write;
+use std::process::{Command, Stdio};
+
+use serde_json::Value;
+
+use crate::bench::{Bench, SPHERE};
+
+/// What `fret` answers to a text on its standard input: exit code, standard output, standard error.
+fn piped(bench: &Bench, words: &[&str], text: &str) -> (Option<i32>, String, String) {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_fret"))
+        .args(words)
+        .current_dir(&bench.folder)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
+    let done = child.wait_with_output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (done.status.code(), text(done.stdout), text(done.stderr))
+}
+
+/// Every template is written, good, without a warning, declares its units, and is solved.
+#[test]
+fn every_template_is_a_case_that_runs() {
+    let bench = Bench::new("templates");
+    let list: Value = serde_json::from_str(&bench.fret(&["init", "--json"]).out).unwrap();
+    let templates = list["templates"].as_array().unwrap();
+    assert_eq!(templates.len(), 7);
+    for template in templates {
+        let name = template["name"].as_str().unwrap();
+        let written = bench.fret(&["init", name]);
+        assert_eq!(written.code, Some(0), "{name}: {}", written.err);
+        let path = format!("{name}.toml");
+        assert!(bench.text(&path).contains("[units]"), "{name}");
+        let check = bench.fret(&["check", &path]);
+        assert!(check.out.starts_with(&format!("{path}: good\n")), "{name}: {}{}", check.out, check.err);
+        let run = bench.fret(&["run", &path, "-q", "-o", name]);
+        assert_eq!(run.code, Some(0), "{name}: {}", run.err);
+        assert_eq!(bench.warnings(name), "[]", "{name}");
+        // an earlier file is not replaced
+        let again = bench.fret(&["init", name]);
+        assert_eq!(again.code, Some(1));
+        assert!(again.err.contains("exists already"), "{}", again.err);
+    }
+    let unknown = bench.fret(&["init", "ball"]);
+    assert!(unknown.err.contains("there are: ball-on-flat, coated"), "{}", unknown.err);
+    let list = bench.fret(&["init"]).out;
+    assert!(list.contains("ball-on-flat") && list.contains("indentation"), "{list}");
+}
+
+#[test]
+fn every_warning_is_explained() {
+    let bench = Bench::new("explained");
+    let all: Value = serde_json::from_str(&bench.fret(&["explain", "--json"]).out).unwrap();
+    let all = all["warnings"].as_array().unwrap();
+    assert_eq!(all.len(), 15);
+    let page =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/reference/messages.md"))
+            .unwrap();
+    for warning in all {
+        let name = warning["name"].as_str().unwrap();
+        // the manual has it, too
+        assert!(page.contains(&format!("`{name}`")), "{name}");
+        let told = bench.fret(&["explain", name]);
+        assert_eq!(told.code, Some(0), "{}", told.err);
+        for part in ["consequence", "help"] {
+            assert!(told.out.contains(warning[part].as_str().unwrap()), "{name}: {}", told.out);
+        }
+        assert_eq!(told.out, bench.fret(&["explain", warning["quantity"].as_str().unwrap()]).out);
+    }
+    let wrong = bench.fret(&["explain", "waves"]);
+    assert_eq!(wrong.code, Some(1));
+    assert!(bench.fret(&["explain", "wave"]).err.contains("did you mean few_cells_per_wave?"));
+}
+
+#[test]
+fn a_case_comes_from_standard_input() {
+    let bench = Bench::new("piped");
+    let (code, out, err) = piped(&bench, &["check", "-"], SPHERE);
+    assert_eq!(code, Some(0), "{err}");
+    assert!(out.starts_with("stdin: good"), "{out}");
+    let (code, _, err) = piped(&bench, &["check", "-"], &SPHERE.replace("radius = 10e-3", "radius = -1.0"));
+    assert_eq!(code, Some(1));
+    assert!(err.contains("stdin:14:10"), "{err}");
+    let (code, _, err) = piped(&bench, &["run", "-", "-q", "-o", "piped"], SPHERE);
+    assert_eq!(code, Some(0), "{err}");
+    bench.file("case.toml", SPHERE).fret(&["run", "case.toml", "--quiet", "--out", "named"]);
+    let numbers = |folder: &str| bench.text(&format!("{folder}/cycles.csv"));
+    assert_eq!(numbers("piped"), numbers("named"));
+    assert_eq!(bench.text("piped/case.toml"), SPHERE);
+}
+
+/// Hertz: a^3 = 3 P R / (4 E*), E* = 210e9 / 0.91: 32 um, 3.2 cells of 10 um.
+#[test]
+fn check_and_plan_tell_the_cells_in_the_contact_radius() {
+    let bench = Bench::new("cells");
+    let check = bench.file("case.toml", SPHERE).fret(&["check", "case.toml", "--json"]);
+    let cells =
+        serde_json::from_str::<Value>(&check.out).unwrap()["cells_in_contact_radius"].as_f64().unwrap();
+    let radius = (0.75 * 10e-3 / (210e9 / 0.91_f64)).cbrt();
+    // the contact of a plan is known to a twentieth
+    assert!((cells / (radius / 10e-6) - 1.0).abs() < 0.05, "{cells} {radius}");
+    for verb in ["check", "plan"] {
+        let told = bench.fret(&[verb, "case.toml"]).out;
+        assert!(told.contains("cells in the expected contact radius, about 0.00003"), "{told}");
+    }
+}
+
+#[test]
+fn a_verbose_run_tells_every_increment_and_the_methods() {
+    let bench = Bench::new("verbose");
+    let run = bench.file("case.toml", SPHERE).fret(&["run", "case.toml", "-v", "-o", "out"]);
+    assert_eq!(run.code, Some(0), "{}", run.err);
+    assert_eq!(run.err.lines().filter(|line| line.starts_with("increment ")).count(), 19, "{}", run.err);
+    let methods = "Coulomb's law held in every cell with a friction coefficient of 0.1";
+    assert!(run.out.contains(methods), "{}", run.out);
+    assert_eq!(bench.fret(&["report", "out"]).code, Some(0));
+    assert!(
+        bench
+            .text("out/report.html")
+            .contains("Coulomb's law held in every cell with a friction coefficient of 0.1")
+    );
+    assert_eq!(bench.fret(&["run", "case.toml", "-v", "-q"]).code, Some(1));
+}
+
+#[test]
+fn shells_and_man_know_every_verb() {
+    let bench = Bench::new("shells");
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let script = bench.fret(&["completions", shell]);
+        assert_eq!(script.code, Some(0), "{}", script.err);
+        for verb in ["run", "identify", "explain"] {
+            assert!(script.out.contains(verb), "{shell} {verb}");
+        }
+    }
+    let page = bench.fret(&["man"]).out;
+    assert!(page.contains(".TH fret 1") && page.contains("identify"), "{page}");
+    assert_eq!(bench.fret(&["man", "-o", "pages"]).code, Some(0));
+    assert!(bench.text("pages/fret-sweep.1").contains("Parameter sweep"));
+}

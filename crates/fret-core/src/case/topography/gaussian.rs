@@ -1,0 +1,68 @@
+//! The Gaussian filter of profiles and surfaces (ISO 16610-21 and 61).
+
+use std::f64::consts::{LN_2, PI};
+
+use ndarray::{Array2, Axis};
+
+/// Mean of heights under a Gaussian weight that passes half of a wave of length `cutoff` along either axis [points]; beyond the border
+/// the weights that remain are made one again.
+pub(super) fn smoothed(heights: &Array2<f64>, cutoff: [f64; 2]) -> Array2<f64> {
+    let mut smooth = heights.clone();
+    for (axis, cutoff) in cutoff.into_iter().enumerate() {
+        if smooth.len_of(Axis(axis)) > 1 {
+            along(&mut smooth, axis, cutoff);
+        }
+    }
+    smooth
+}
+
+/// At a distance of the cutoff the weight is 7e-7 of that in the middle, and what lies beyond counts for nothing.
+fn along(heights: &mut Array2<f64>, axis: usize, cutoff: f64) {
+    let alpha = (LN_2 / PI).sqrt();
+    let count = heights.len_of(Axis(axis));
+    let reach = (cutoff.ceil() as usize).min(count - 1);
+    let weights: Vec<f64> =
+        (0..=reach).map(|away| (-PI * (away as f64 / (alpha * cutoff)).powi(2)).exp()).collect();
+    let mut before = vec![0.0; count];
+    for mut lane in heights.lanes_mut(Axis(axis)) {
+        before.iter_mut().zip(&lane).for_each(|(before, height)| *before = *height);
+        for (place, height) in lane.iter_mut().enumerate() {
+            let (mut sum, mut weight) = (0.0, 0.0);
+            let last = (place + reach).min(count - 1);
+            for (other, value) in before.iter().enumerate().take(last + 1).skip(place.saturating_sub(reach)) {
+                sum += weights[place.abs_diff(other)] * value;
+                weight += weights[place.abs_diff(other)];
+            }
+            *height = sum / weight;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// ISO 16610-21: the transmission is exp(-pi (alpha cutoff / wavelength)^2), one half at the cutoff.
+    #[test]
+    fn a_wave_is_damped_by_the_transmission_of_the_standard() {
+        for (wavelength, cutoff) in [(40.0_f64, 40.0_f64), (80.0, 40.0), (30.0, 60.0)] {
+            let wave = |at: f64| (2.0 * PI * at / wavelength).cos();
+            let surface = Array2::from_shape_fn((401, 3), |(i, _)| wave(i as f64 - 200.0));
+            let transmission = (-LN_2 * (cutoff / wavelength).powi(2)).exp();
+            let smooth = smoothed(&surface, [cutoff, 1e-3]);
+            // far from the border; the weight that is cut off at the reach is 1e-6
+            for i in 150..250 {
+                assert!(
+                    (smooth[[i, 1]] - transmission * surface[[i, 1]]).abs() < 3e-6,
+                    "{wavelength} {cutoff}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_level_surface_stays_level_up_to_its_border() {
+        let level = Array2::from_elem((20, 30), 7.25);
+        assert!((smoothed(&level, [9.0, 50.0]) - &level).iter().all(|error| error.abs() < 1e-14));
+    }
+}

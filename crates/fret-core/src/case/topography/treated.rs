@@ -1,0 +1,238 @@
+//! Measured heights after all that a case asks for: filled, cut, levelled, filtered, and on the cells of the grid.
+
+use std::ops::Range;
+
+use ndarray::{Array2, s};
+
+use super::content::FILL;
+use super::question::{Measured, Question, SPACING};
+use super::{fill, gaussian, resample};
+use crate::case::arrays::Cells;
+use crate::case::judge::Judge;
+use crate::case::points;
+use crate::model::{Detrend, Treatment};
+
+impl Question<'_> {
+    /// The heights of the cells, after all that the case asks for, and the record of it.
+    pub fn treated(
+        &self,
+        judge: &mut Judge,
+        measured: Measured,
+        detrend: Detrend,
+    ) -> Option<(Array2<f64>, Treatment)> {
+        let Measured { mut heights, mut size, places, read_by } = measured;
+        let (nx, ny) = heights.dim();
+        let mut record = Treatment { read_by, points: [nx, ny], size, ..Treatment::default() };
+        if self.cells.count[1] == 1 && ny > 1 {
+            return self.refuse(
+                judge,
+                &format!("{nx} x {ny} points, in a line contact"),
+                "a line contact takes a line scan; a surface needs two numbers of cells",
+            );
+        }
+        self.filled(judge, &mut heights, size, &mut record)?;
+        let uneven = ["cut", "short_cutoff and long_cutoff"];
+        let are_asked =
+            [self.keys.cut.is_some(), self.keys.short_cutoff.is_some() || self.keys.long_cutoff.is_some()];
+        if let (Some(what), true) = (
+            uneven.into_iter().zip(are_asked).find(|(_, asked)| *asked).map(|(what, _)| what),
+            places.is_some(),
+        ) {
+            return self.refuse(
+                judge,
+                &format!("{what}: the points of this line scan are not evenly spaced"),
+                "resample = \"linear\" alone takes such points",
+            );
+        }
+        if let Some(cut) = &self.keys.cut {
+            let sides = self.size_for(judge, "cut", size)?;
+            size = Some(self.cut(judge, &mut heights, sides, (&cut.value, cut.span()))?);
+            record.cut = Some(cut.value.clone());
+        }
+        detrend.remove_from(&mut heights);
+        self.filtered(judge, &mut heights, size, &mut record)?;
+        if self.keys.resamples() {
+            record.resample = Some("linear");
+            heights = self.resampled(judge, &heights, size, places)?;
+        } else {
+            self.are_cells(judge, &heights, size, places.is_some())?;
+        }
+        Some((heights, record))
+    }
+
+    fn filled(
+        &self,
+        judge: &mut Judge,
+        heights: &mut Array2<f64>,
+        size: Option<[f64; 2]>,
+        record: &mut Treatment,
+    ) -> Option<()> {
+        let first = heights.indexed_iter().find(|(_, height)| height.is_nan()).map(|(at, _)| at);
+        let Some((i, j)) = first else { return Some(()) };
+        let count = heights.iter().filter(|height| height.is_nan()).count();
+        record.holes = count;
+        if !self.keys.fills() {
+            let all = heights.len();
+            let why = format!("{count} of {all} points have no measurement, the first at [{i}, {j}]");
+            return self.refuse(judge, &why, FILL);
+        }
+        record.fill = Some("harmonic");
+        let (nx, ny) = heights.dim();
+        let spacing = size.map_or([1.0; 2], |size| [size[0] / nx as f64, size[1] / ny as f64]);
+        let ratio = if ny > 1 { (spacing[0] / spacing[1]).powi(2) } else { 1.0 };
+        match fill::fill(heights, [1.0, ratio]) {
+            Ok(_) => Some(()),
+            Err(why) => self.refuse(judge, &why, "measure again, or choose another channel"),
+        }
+    }
+
+    /// The size, which something that is asked for needs.
+    fn size_for(&self, judge: &mut Judge, what: &str, size: Option<[f64; 2]>) -> Option<[f64; 2]> {
+        let why = || format!("{what}: nothing says how large the scan is");
+        size.or_else(|| self.refuse(judge, &why(), "size = [x, y] [length], of a line scan one length"))
+    }
+
+    /// Keeps a part of the scan; its size.
+    fn cut(
+        &self,
+        judge: &mut Judge,
+        heights: &mut Array2<f64>,
+        size: [f64; 2],
+        (cut, span): (&[[f64; 2]], Range<usize>),
+    ) -> Option<[f64; 2]> {
+        let counts = [heights.nrows(), heights.ncols()];
+        let axes = if counts[1] == 1 { 1 } else { 2 };
+        if cut.len() != axes {
+            let message = format!("{}.cut: {} pairs of from and to, wanted {axes}", self.place, cut.len());
+            return judge.refuse(
+                span,
+                message,
+                "cut = [[x from, x to], [y from, y to]]; of a line scan [[from, to]]",
+            );
+        }
+        let mut kept = [0..counts[0], 0..counts[1]];
+        let mut sides = size;
+        for (axis, &[from, to]) in cut.iter().enumerate() {
+            let spacing = size[axis] / counts[axis] as f64;
+            let index = |at: f64| (at / spacing).round();
+            let [first, end] = [index(from), index(to)];
+            if !(first >= 0.0 && end >= first + 2.0 && end <= counts[axis] as f64) {
+                let message = format!(
+                    "{}.cut: from {from} to {to} along {}, of a scan of 0 to {} with points {spacing} apart",
+                    self.place,
+                    ["x", "y"][axis],
+                    size[axis]
+                );
+                return judge.refuse(span, message, "at least two points inside the scan");
+            }
+            kept[axis] = first as usize..end as usize;
+            sides[axis] = spacing * (end - first);
+        }
+        let [x, y] = kept;
+        *heights = heights.slice(s![x, y]).to_owned();
+        Some(sides)
+    }
+
+    fn filtered(
+        &self,
+        judge: &mut Judge,
+        heights: &mut Array2<f64>,
+        size: Option<[f64; 2]>,
+        record: &mut Treatment,
+    ) -> Option<()> {
+        let (short, long) = (self.keys.short_cutoff.as_ref(), self.keys.long_cutoff.as_ref());
+        if let (Some(short), Some(long)) = (short, long)
+            && short.value >= long.value
+        {
+            let message = format!("{}: short_cutoff is not below long_cutoff", self.place);
+            return judge.refuse(short.span(), message, "waves between the two are kept");
+        }
+        for (cutoff, is_short) in [(short, true), (long, false)] {
+            let Some(cutoff) = cutoff else { continue };
+            let size = self.size_for(judge, "short_cutoff and long_cutoff", size)?;
+            let counts = [heights.nrows(), heights.ncols()];
+            let points = [0, 1].map(|axis| cutoff.value * counts[axis] as f64 / size[axis]);
+            let smooth = gaussian::smoothed(heights, points);
+            if is_short {
+                *heights = smooth;
+                record.short_cutoff = Some(cutoff.value);
+            } else {
+                *heights -= &smooth;
+                record.long_cutoff = Some(cutoff.value);
+            }
+        }
+        Some(())
+    }
+
+    /// Heights of the cells of the grid, which lies in the middle of the scan.
+    fn resampled(
+        &self,
+        judge: &mut Judge,
+        heights: &Array2<f64>,
+        size: Option<[f64; 2]>,
+        places: Option<Vec<f64>>,
+    ) -> Option<Array2<f64>> {
+        let size = self.size_for(judge, "resample", size)?;
+        let Some(grid) = self.cells.size else {
+            return self.refuse(judge, "resample: grid.size must be given", "grid.size = [x, y]");
+        };
+        let axes = if self.cells.count[1] == 1 { 1 } else { 2 };
+        if (0..axes).any(|axis| grid[axis] > size[axis] * (1.0 + SPACING)) {
+            let shown = |sides: [f64; 2]| {
+                sides[..axes]
+                    .iter()
+                    .map(|&side| points::figures(side).to_string())
+                    .collect::<Vec<_>>()
+                    .join(" x ")
+            };
+            let why = format!("the scan is {}, and the grid {}", shown(size), shown(grid));
+            return self.refuse(judge, &why, "a grid that lies inside the scan");
+        }
+        let counts = [heights.nrows(), heights.ncols()];
+        let is_uneven = places.is_some();
+        let x = places.unwrap_or_else(|| resample::even(counts[0], size[0] / counts[0] as f64));
+        let y = resample::even(counts[1], size[1] / counts[1] as f64);
+        let begin = if is_uneven { x.first().copied().unwrap_or_default() } else { 0.0 };
+        let window = |axis: usize, begin: f64| {
+            let side = if axis < axes { grid[axis].min(size[axis]) } else { size[axis] };
+            let from = begin + 0.5 * (size[axis] - side);
+            from..from + side
+        };
+        let window = [window(0, begin), window(1, 0.0)];
+        Some(resample::resampled(heights, [&x, &y], &window, self.cells.count))
+    }
+
+    /// Refuses points that are not the cells of the grid.
+    fn are_cells(
+        &self,
+        judge: &mut Judge,
+        heights: &Array2<f64>,
+        size: Option<[f64; 2]>,
+        uneven: bool,
+    ) -> Option<()> {
+        let Cells { count, size: grid } = self.cells;
+        let points = [heights.nrows(), heights.ncols()];
+        let axes = if count[1] == 1 { 1 } else { 2 };
+        let shown = |values: Vec<String>| values[..axes].join(" x ");
+        let of =
+            |sides: [f64; 2]| shown(sides.iter().map(|&side| points::figures(side).to_string()).collect());
+        let extent = size.map(|size| format!(" on {}", of(size))).unwrap_or_default();
+        let counted = |counts: [usize; 2]| shown(counts.iter().map(usize::to_string).collect());
+        let help = "resample = \"linear\" takes the grid from the middle of the scan, or give the grid the points of the scan";
+        if points != count {
+            let why =
+                format!("{} points{extent}, but the grid has {} cells", counted(points), counted(count));
+            return self.refuse(judge, &why, help);
+        }
+        if uneven {
+            return self.refuse(judge, "the points of this line scan are not evenly spaced", help);
+        }
+        if let (Some(size), Some(grid)) = (size, grid)
+            && (0..axes).any(|axis| (size[axis] / grid[axis] - 1.0).abs() > SPACING)
+        {
+            let why = format!("the scan is {}, and the grid {}", of(size), of(grid));
+            return self.refuse(judge, &why, help);
+        }
+        Some(())
+    }
+}
