@@ -231,7 +231,7 @@ fn a_scan_carries_its_units_and_is_resampled_to_the_middle() {
     }
     assert!((depths[[0, 1]] - depths[[3, 2]]).abs() < 1e-15); // rounding
     let record = treatment(&case);
-    assert_eq!((record.points, record.resample, record.holes), ([8, 8], Some("linear"), 0));
+    assert_eq!((record.points, record.resample.as_deref(), record.holes), ([8, 8], Some("linear"), 0));
     assert_eq!(record.size, Some([2.5, 2.5]));
     assert_eq!(record.read_by.as_deref(), Some("a test"));
     // cut to points that are the cells: those themselves, in mm
@@ -249,7 +249,7 @@ fn holes_are_refused_and_filled_on_request() {
     assert!(error.contains("1 of 64 points have no measurement, the first at [2, 5]"), "{error}");
     assert!(error.contains("fill = \"harmonic\""), "{error}");
     let filled = scanned("fill = \"harmonic\"\nresample = \"linear\"", b"\x00\x01", Some(&scan)).unwrap();
-    assert_eq!((treatment(&filled).holes, treatment(&filled).fill), (1, Some("harmonic")));
+    assert_eq!((treatment(&filled).holes, treatment(&filled).fill.as_deref()), (1, Some("harmonic")));
     // the mean of the four neighbours of a paraboloid lies below it by a spacing squared over 2 R in both directions together
     let below = 0.3125_f64.powi(2) / 50.0;
     let change = filled.profile.heights[0].depths() - whole.profile.heights[0].depths();

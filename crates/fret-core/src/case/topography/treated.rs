@@ -52,7 +52,7 @@ impl Question<'_> {
         detrend.remove_from(&mut heights);
         self.filtered(judge, &mut heights, size, &mut record)?;
         if self.keys.resamples() {
-            record.resample = Some("linear");
+            record.resample = Some("linear".to_owned());
             heights = self.resampled(judge, &heights, size, places)?;
         } else {
             self.are_cells(judge, &heights, size, places.is_some())?;
@@ -76,7 +76,7 @@ impl Question<'_> {
             let why = format!("{count} of {all} points have no measurement, the first at [{i}, {j}]");
             return self.refuse(judge, &why, FILL);
         }
-        record.fill = Some("harmonic");
+        record.fill = Some("harmonic".to_owned());
         let (nx, ny) = heights.dim();
         let spacing = size.map_or([1.0; 2], |size| [size[0] / nx as f64, size[1] / ny as f64]);
         let ratio = if ny > 1 { (spacing[0] / spacing[1]).powi(2) } else { 1.0 };
