@@ -97,14 +97,23 @@ impl ContactSolver<'_> {
         if let Some(ratio) = ratio {
             let beyond =
                 |before: &Before, drift: &Drift| increment.drift_to_here(before, drift, &mut operators);
-            increment.path = slip_path(&self.memory, state, (ratio, region), beyond).unwrap_or_default();
+            increment.path = slip_path(&self.memory, state, (ratio, region, self.edge_ratio(load, ratio)), beyond).unwrap_or_default();
         }
         let solved = self.solve_with(&mut operators, &increment, tractions, callback);
         self.work += operators.take_work(region.len() as f64 / self.cells_of_whole());
         let self_influence = operators.compliance.self_influence().tangential;
         self.operators = Some(operators);
         self.memory.region = Some(region);
-        let solved = solved?;
+        let mut solved = solved?;
+        if super::slip_history::on('d') && increment.path.turns() {
+            for cell in 0..region.len() {
+                let at = region.at(cell);
+                if state.zone[at] == crate::model::Zone::Open && solved.tractions.pressure[cell] > 0.0 {
+                    let (d, a) = (solved.drift.at(cell), increment.path.ahead.at(cell));
+                    solved.drift.set(cell, [d[0] - a[0], d[1] - a[1]]);
+                }
+            }
+        }
         let (after, outcome) = state_after(&increment, &solved, self_influence, self.settings.integration);
         self.work.outer_iterations += solved.solution.iterations;
         if outcome.residual.equilibrium > self.settings.tolerance {
