@@ -105,6 +105,7 @@ impl ContactSolver<'_> {
         self.operators = Some(operators);
         self.memory.region = Some(region);
         let mut solved = solved?;
+        let whole_drift = solved.drift.clone();
         if super::slip_history::on('d') && increment.path.turns() {
             for cell in 0..region.len() {
                 let at = region.at(cell);
@@ -191,6 +192,7 @@ impl ContactSolver<'_> {
         let after = &increment.state;
         let last = self.memory.last.take();
         let contact_area = last.as_ref().map_or(0.0, |last| last.contact_area);
+        let knows_touch = ratio.is_some() && self.memory.before.as_ref().is_some_and(|before| before.gap.is_some());
         let (gap, drift) = last.filter(|_| ratio.is_some()).map(|last| (last.gap, last.drift)).unzip();
         let previous = self.memory.last_load.replace(*load);
         self.memory.before = previous.map(|load| Before {
@@ -212,6 +214,7 @@ impl ContactSolver<'_> {
                 ],
                 strain: self.stretch(state, load).strain,
                 ratio: ratio.unwrap_or(1.0),
+                knows_touch,
             };
         }
         self.memory.last = Some(LastIncrement {

@@ -64,7 +64,7 @@ pub fn slip_path(
     for cell in slipping {
         let here = drift.at(cell);
         let fall = match &then {
-            Some((_, pressure)) if pressure[cell] <= 0.0 => ENTERED,
+            Some((_, pressure)) if pressure[cell] <= 0.0 => if on('k') && !last.drift.knows_touch { 0.0 } else { ENTERED },
             Some((drift, _)) => fall(drift.at(cell), here, last.drift.ratio),
             None => 0.0,
         };
