@@ -3,6 +3,7 @@
 pub mod certifier;
 pub mod extreme_cases;
 pub mod random;
+pub mod random_histories;
 pub mod shortcuts;
 pub mod stiff_cases;
 

@@ -97,14 +97,24 @@ impl ContactSolver<'_> {
         if let Some(ratio) = ratio {
             let beyond =
                 |before: &Before, drift: &Drift| increment.drift_to_here(before, drift, &mut operators);
-            increment.path = slip_path(&self.memory, state, (ratio, region), beyond).unwrap_or_default();
+            increment.path = slip_path(&self.memory, state, (ratio, region, self.edge_ratio(load, ratio)), beyond).unwrap_or_default();
         }
         let solved = self.solve_with(&mut operators, &increment, tractions, callback);
         self.work += operators.take_work(region.len() as f64 / self.cells_of_whole());
         let self_influence = operators.compliance.self_influence().tangential;
         self.operators = Some(operators);
         self.memory.region = Some(region);
-        let solved = solved?;
+        let mut solved = solved?;
+        let whole_drift = solved.drift.clone();
+        if super::slip_history::on('d') && increment.path.turns() {
+            for cell in 0..region.len() {
+                let at = region.at(cell);
+                if state.zone[at] == crate::model::Zone::Open && solved.tractions.pressure[cell] > 0.0 {
+                    let (d, a) = (solved.drift.at(cell), increment.path.ahead.at(cell));
+                    solved.drift.set(cell, [d[0] - a[0], d[1] - a[1]]);
+                }
+            }
+        }
         let (after, outcome) = state_after(&increment, &solved, self_influence, self.settings.integration);
         self.work.outer_iterations += solved.solution.iterations;
         if outcome.residual.equilibrium > self.settings.tolerance {
@@ -183,6 +193,7 @@ impl ContactSolver<'_> {
         let after = &increment.state;
         let last = self.memory.last.take();
         let contact_area = last.as_ref().map_or(0.0, |last| last.contact_area);
+        let knows_touch = ratio.is_some() && self.memory.before.as_ref().is_some_and(|before| before.gap.is_some());
         let (gap, drift) = last.filter(|_| ratio.is_some()).map(|last| (last.gap, last.drift)).unzip();
         let previous = self.memory.last_load.replace(*load);
         self.memory.before = previous.map(|load| Before {
@@ -204,6 +215,7 @@ impl ContactSolver<'_> {
                 ],
                 strain: self.stretch(state, load).strain,
                 ratio: ratio.unwrap_or(1.0),
+                knows_touch,
             };
         }
         self.memory.last = Some(LastIncrement {

@@ -54,6 +54,8 @@ pub(super) struct Drift {
     pub strain: [f64; 2],
     /// Length of the increment over that of the one before it, in the loads [-]; 1 where it does not go on from that.
     pub ratio: f64,
+    /// Whether the moments of touch were known in it.
+    pub knows_touch: bool,
 }
 
 impl Drift {

@@ -7,6 +7,9 @@ use ndarray::Array2;
 use super::laws::slip_path::SlipPath;
 use super::memory::{Before, Drift, SolverMemory};
 use super::region::Region;
+pub(super) static RULE: std::sync::LazyLock<String> = std::sync::LazyLock::new(|| std::env::var("FRET_RULE").unwrap_or_default());
+pub(super) fn on(c: char) -> bool { RULE.split('=').next().unwrap_or_default().contains(c) }
+pub(super) fn num(default: f64) -> f64 { RULE.split('=').nth(1).and_then(|t| t.parse().ok()).unwrap_or(default) }
 use crate::fields::{TangentialField, in_portions, length};
 use crate::model::{ContactState, Zone};
 
@@ -42,7 +45,7 @@ const KNOWN: f64 = 0.01;
 pub fn slip_path(
     memory: &SolverMemory,
     state: &ContactState,
-    (ratio, region): (f64, Region),
+    (ratio, region, edge_ratio): (f64, Region, Option<f64>),
     beyond: impl FnOnce(&Before, &Drift) -> TangentialField,
 ) -> Option<SlipPath> {
     let last = memory.last.as_ref()?;
@@ -61,22 +64,24 @@ pub fn slip_path(
     for cell in slipping {
         let here = drift.at(cell);
         let fall = match &then {
-            Some((_, pressure)) if pressure[cell] <= 0.0 => ENTERED,
+            Some((_, pressure)) if pressure[cell] <= 0.0 => if on('k') && !last.drift.knows_touch { 0.0 } else { ENTERED },
             Some((drift, _)) => fall(drift.at(cell), here, last.drift.ratio),
             None => 0.0,
         };
+        let fall = if on('s') { 0.0 } else { fall };
         let weight = (slip(cell) / (KNOWN * largest)).min(1.0);
-        path.go_on(cell, here, (ratio, STOP * fall, weight));
+        path.go_on(cell, here, (ratio, STOP * fall, if on('t') { 0.0 } else { weight }));
     }
     let shear = [0, 1].map(|axis| region.gather(&state.shear[axis]));
     let held = |cell: usize| [shear[0][cell], shear[1][cell]];
     let largest_shear = (0..region.len()).map(|cell| length(held(cell))).fold(0.0, f64::max);
-    for cell in (0..region.len()).filter(|&cell| zones[cell] == Zone::Stick) {
+    for cell in (0..region.len()).filter(|&cell| zones[cell] == Zone::Stick && !on('b')) {
         let shear = held(cell);
         path.begin(cell, shear, (BEGUN, (length(shear) / (KNOWN * largest_shear)).min(1.0)));
     }
-    if let Some((before, gap)) = before.and_then(|before| Some((before, before.gap.as_ref()?))) {
-        let edge = Edge { before: gap, now: &last.gap, ratio };
+    let edge_ratio = if on('l') { edge_ratio } else { Some(ratio) };
+    if let Some((before, gap, edge_ratio)) = before.and_then(|before| Some((before, before.gap.as_ref()?, edge_ratio?))).filter(|_| !on('n')) {
+        let edge = Edge { before: gap, now: &last.gap, ratio: edge_ratio };
         let [_, columns] = region.shape;
         let at = |cell: usize| [region.origin[0] + cell / columns, region.origin[1] + cell % columns];
         let entering_of = |cells: Range<usize>, _: [&mut [f64]; 0]| -> Vec<(usize, f64)> {
@@ -101,7 +106,7 @@ pub fn slip_path(
             let slid = coming.at(at(cell), &slip_of);
             let lag = left_of_lag(touch);
             path.ahead
-                .set(cell, [0, 1].map(|axis| EDGE * touch * slid[axis] + lag * (here[axis] - slid[axis])));
+                .set(cell, [0, 1].map(|axis| (if on('1') { 1.0 } else if on('0') { 0.0 } else { num(EDGE) }) * touch * slid[axis] + lag * (here[axis] - slid[axis])));
         }
     }
     Some(path)
@@ -128,11 +133,12 @@ impl Edge<'_> {
         let mut steepest = 0.0_f64;
         for next in self.neighbours(at) {
             steepest = steepest.max((distance(self.now[next]) - now).abs());
-            if steepest >= 2.0 * way {
+            if steepest >= 2.0 * way && !on('e') {
                 return 0.0;
             }
         }
         let is_believed = (2.0 * way / steepest - 1.0).clamp(0.0, 1.0);
+        let is_believed = if on('e') { 1.0 } else { is_believed };
         is_believed * (now / way).min(1.0)
     }
 

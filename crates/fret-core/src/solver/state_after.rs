@@ -61,6 +61,23 @@ pub(super) fn state_after(
         let weights = weights_of_ends(integration, zones);
         dissipated += dissipation([bound_before[place], bound[place]], weights, way);
     }
+    {
+        use super::slip_history::on;
+        let mut all = 0.0;
+        let mut leaving = 0.0;
+        for cell in 0..region.len() {
+            let at = region.at(cell);
+            let q0 = [0, 1].map(|axis| before.shear[axis][at]);
+            let q1 = solved.tractions.shear.at(cell);
+            let s = solved.drift.at(cell);
+            let part = 0.5 * ((q0[0] + q1[0]) * s[0] + (q0[1] + q1[1]) * s[1]);
+            all += part;
+            if pressure[cell] <= 0.0 { leaving += part; }
+        }
+        if on('a') { dissipated = all; }
+        if on('c') { dissipated += 0.5 * leaving; }
+        if on('C') { dissipated += leaving; }
+    }
     let area = grid.cell_area();
     let area_of_copies = area * problem.copies as f64;
     state.dissipated_energy += dissipated * area_of_copies;

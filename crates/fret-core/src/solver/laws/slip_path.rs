@@ -143,6 +143,7 @@ pub fn length_of_way(
 /// Weights of the start and the end of an increment in a mean along the way of its slip, in a run of this integration, from what a cell
 /// does at both: a half each, but where it begins to slip or comes to rest, see [`PART`].
 pub fn weights_of_ends(integration: Integration, zones: [Zone; 2]) -> [f64; 2] {
+    if super::super::slip_history::on('h') { return [0.5; 2]; }
     match (integration, zones) {
         (Integration::SecondOrder, [Zone::Stick, Zone::Slip]) => [1.0 - PART, PART],
         (Integration::SecondOrder, [Zone::Slip, Zone::Stick]) => [PART, 1.0 - PART],

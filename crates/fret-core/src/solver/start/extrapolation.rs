@@ -81,6 +81,15 @@ impl ContactSolver<'_> {
         (both > 0.5 * (old * new).sqrt()).then(|| (new / old).sqrt().min(3.0))
     }
 
+    pub(in super::super) fn edge_ratio(&self, load: &LoadStep, ratio: f64) -> Option<f64> {
+        let (before, last) = (&self.memory.before.as_ref()?.load, self.memory.last_load.as_ref()?);
+        let (old, new) = (before.change_to(last)?[0], last.change_to(load)?[0]);
+        if old == 0.0 && new == 0.0 {
+            return Some(ratio);
+        }
+        (old * new > 0.0).then(|| (new / old).min(3.0))
+    }
+
     /// Takes the last load for what the controls of `load` would have prescribed to reach the same state: a stage that prescribes another
     /// kind of control than the one before goes on from its end.
     pub(in super::super) fn take_last_load_as(&mut self, load: &LoadStep, state: &ContactState) {
