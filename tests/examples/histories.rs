@@ -40,7 +40,12 @@ fn errors(found: &End, right: &End) -> [f64; 3] {
 }
 
 fn solved(text: &str) -> Result<End, String> {
-    run(text).map(|history| end(&history)).map_err(|error| error.to_string())
+    let history = run(text).map_err(|error| error.to_string())?;
+    let off = fret_validation::off_first_law(&history, 0.0);
+    if off > 1e-9 {
+        eprintln!("first law: {off:.1e}");
+    }
+    Ok(end(&history))
 }
 
 fn reference(history: &RandomHistory, folder: &Path, rule: &str) -> Result<End, String> {

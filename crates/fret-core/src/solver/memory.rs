@@ -41,7 +41,8 @@ pub(super) struct Before {
     pub drift: Option<Drift>,
 }
 
-/// Change of the tangential displacement of the upper body over the lower in an increment: slip, in contact.
+/// Change of the tangential displacement of the upper body over the lower in an increment: slip, in contact. Of cells that came into contact
+/// in it, from the moment of touch on.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Drift {
     /// Where it is known; zero elsewhere.
@@ -54,7 +55,7 @@ pub(super) struct Drift {
     pub strain: [f64; 2],
     /// Length of the increment over that of the one before it, in the loads [-]; 1 where it does not go on from that.
     pub ratio: f64,
-    /// Whether the moments of touch were known in it.
+    /// Whether the moments of touch in it were known.
     pub knows_touch: bool,
 }
 

@@ -28,11 +28,6 @@ use crate::model::{Integration, Zone};
 /// degrees err more and take more applications.
 const FADED: f64 = 0.5;
 
-/// Where in an increment a cell slips that begins to in it, from its start: the mean over its slip. It begins at any moment t, and slips with
-/// the root of the time since then, as beside a stick zone that shrinks: `(1 - t)^(3/2)` in all, at `t + 3/5 (1 - t)` in the mean, and
-/// summed over all t at 5/7. A cell that comes to rest, with the root of the time left: the same from the end.
-const PART: f64 = 5.0 / 7.0;
-
 /// What is known of the paths before an increment is solved, over the cells of a region or packed over a contact. With empty fields it is
 /// the end-point rule.
 #[derive(Debug, Clone, Default)]
@@ -106,6 +101,15 @@ impl SlipPath {
         [slip[0] + ahead[0], slip[1] + ahead[1]]
     }
 
+    /// The way of a cell that was open and has come into contact [length]: its drift from the moment of touch on.
+    pub fn since_touch(&self, cell: usize, drift: [f64; 2]) -> [f64; 2] {
+        if !self.turns() {
+            return drift;
+        }
+        let ahead = self.ahead.at(cell);
+        [drift[0] - ahead[0], drift[1] - ahead[1]]
+    }
+
     /// The turn packed over a contact.
     pub fn packed(&self, contact: &ContactSet) -> Self {
         if !self.turns() {
@@ -138,17 +142,6 @@ pub fn length_of_way(
     let known = ((angle.cos() - FADED) / (1.0 - FADED)).max(0.0);
     let arc = 0.5 * angle / (0.5 * angle).sin();
     chord * (1.0 + known * (arc - 1.0))
-}
-
-/// Weights of the start and the end of an increment in a mean along the way of its slip, in a run of this integration, from what a cell
-/// does at both: a half each, but where it begins to slip or comes to rest, see [`PART`].
-pub fn weights_of_ends(integration: Integration, zones: [Zone; 2]) -> [f64; 2] {
-    if super::super::slip_history::on('h') { return [0.5; 2]; }
-    match (integration, zones) {
-        (Integration::SecondOrder, [Zone::Stick, Zone::Slip]) => [1.0 - PART, PART],
-        (Integration::SecondOrder, [Zone::Slip, Zone::Stick]) => [PART, 1.0 - PART],
-        _ => [0.5; 2],
-    }
 }
 
 /// The slip at the end of the increment, up to a factor, from the slip less the offset and the vector t.
@@ -225,29 +218,6 @@ mod tests {
         }
         assert_eq!(way_of(Integration::EndPoint, slips, 20.0), 0.5);
         assert_eq!(length_of_way(Integration::SecondOrder, [0.3, -0.4], slips, [[0.0; 2], at(9.0)]), 0.5);
-    }
-
-    /// What begins to slip does so late in its increment, what comes to rest early: means over the slip of cells that do at all moments, with a
-    /// rate as the root of the time since or to then.
-    #[test]
-    fn slip_that_begins_is_near_the_end() {
-        let moments = || (0..1000).map(|k| (f64::from(k) + 0.5) / 1e3);
-        let (mut slip, mut at) = (0.0, 0.0);
-        for begin in moments() {
-            for now in moments().filter(|now| *now > begin) {
-                slip += (now - begin).sqrt();
-                at += now * (now - begin).sqrt();
-            }
-        }
-        let weights = |zones| weights_of_ends(Integration::SecondOrder, zones);
-        let [first, last] = weights([Zone::Stick, Zone::Slip]);
-        assert!((last - at / slip).abs() < 1e-3 && first + last == 1.0, "{last} {}", at / slip);
-        assert_eq!(weights([Zone::Slip, Zone::Stick]), [last, first]);
-        for zones in [[Zone::Slip; 2], [Zone::Open, Zone::Slip], [Zone::Slip, Zone::Open]] {
-            assert_eq!(weights(zones), [0.5; 2]);
-        }
-        let by_end_points = weights_of_ends(Integration::EndPoint, [Zone::Stick, Zone::Slip]);
-        assert_eq!(by_end_points, [0.5; 2]);
     }
 
     /// Slip a small angle off the shear that held the cell: the tangent grows by the factor, whatever the size of that shear; a direction
