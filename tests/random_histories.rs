@@ -4,6 +4,9 @@
 use std::f64::consts::PI;
 use std::fmt::Write;
 
+use fret_core::history::History;
+use serde::{Deserialize, Serialize};
+
 use crate::random::Random;
 
 /// Radius of the sphere or cylinder in contact radii.
@@ -216,5 +219,42 @@ impl RandomHistory {
                 vec![(shift(reach), 0.5), (shift(-other * reach), 0.75), (shift(reach), 0.75)]
             }
         };
+    }
+}
+
+/// What a history ends with.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct End {
+    /// Dissipated energy [force x length].
+    pub energy: f64,
+    /// Shift [length].
+    pub shift: [f64; 2],
+    /// Largest shift on the way [length].
+    pub reach: f64,
+    /// Shear of all cells, x then y [pressure]; may be empty where it is kept.
+    pub shear: Vec<f64>,
+}
+
+impl End {
+    /// That of a history.
+    ///
+    /// # Panics
+    /// When it has no increment.
+    pub fn of(history: &History) -> Self {
+        let Some(last) = history.steps.last() else { panic!("a history of no increment") };
+        let reach = history.steps.iter().map(|step| step.shift[0].hypot(step.shift[1])).fold(0.0, f64::max);
+        let shear = history.state.shear.iter().flat_map(|part| part.iter().copied()).collect();
+        Self { energy: last.dissipated_energy, shift: last.shift, reach, shear }
+    }
+
+    /// How far it is from the right one: energy, relative; shift over the largest of the way; shear, root of the mean square over the cells in
+    /// contact, over the largest shear.
+    pub fn off(&self, right: &Self) -> [f64; 3] {
+        let shift = (self.shift[0] - right.shift[0]).hypot(self.shift[1] - right.shift[1]);
+        let most = right.shear.iter().fold(0.0_f64, |most, q| most.max(q.abs()));
+        let squares: f64 = self.shear.iter().zip(&right.shear).map(|(a, b)| (a - b) * (a - b)).sum();
+        let touched = right.shear.iter().filter(|q| **q != 0.0).count().max(1);
+        let shear = if most > 0.0 { (squares / touched as f64).sqrt() / most } else { 0.0 };
+        [self.energy / right.energy - 1.0, shift / right.reach, shear]
     }
 }
