@@ -80,7 +80,8 @@ impl RandomHistory {
         let is_line = random.chance(0.5);
         let poisson = if random.chance(0.15) { 0.0 } else { random.between(0.0, 0.45) };
         let friction = random.log_uniform(0.1, 0.6);
-        let coating = random.chance(0.5).then(|| (random.log_uniform(0.3, 4.0), random.log_uniform(0.2, 2.0)));
+        let coating =
+            random.chance(0.5).then(|| (random.log_uniform(0.3, 4.0), random.log_uniform(0.2, 2.0)));
         let upper = random.uniform();
         let mut head = String::new();
         let elastic = 1.0 / (1.0 - poisson * poisson);
@@ -96,8 +97,7 @@ impl RandomHistory {
         };
         let softer = coating.map_or(1.0, |(ratio, _)| f64::max(1.0, 1.0 / ratio));
         let size = if is_line { 2.9 * softer.sqrt() } else { 2.7 * softer.cbrt() };
-        let force =
-            if is_line { PI * modulus / (4.0 * RADIUS) } else { 4.0 * modulus / (3.0 * RADIUS) };
+        let force = if is_line { PI * modulus / (4.0 * RADIUS) } else { 4.0 * modulus / (3.0 * RADIUS) };
         let (cells, size, profile) = if is_line {
             ("96".to_owned(), format!("{size}"), "cylinder")
         } else {
@@ -169,7 +169,9 @@ impl RandomHistory {
                 format!("{}phase = {{ tangential_force = [0, 90] }}\n", to(0.7 * pull, 0.7 * other * pull)),
                 2,
             )],
-            Kind::InPhase => vec![cycle(format!("{}normal_force = {:e}\n", to(least * x, least * y), swing * force), 2)],
+            Kind::InPhase => {
+                vec![cycle(format!("{}normal_force = {:e}\n", to(least * x, least * y), swing * force), 2)]
+            }
             Kind::OutOfPhase => vec![cycle(
                 format!(
                     "{}normal_force = {:e}\nphase = {{ normal_force = {phase} }}\n",
@@ -202,7 +204,14 @@ impl RandomHistory {
             Kind::Tilt => {
                 let slope = 0.3 * other / RADIUS;
                 let tilt = if is_line { format!("{slope:e}") } else { format!("[{slope:e}, 0.0]") };
-                vec![cycle(format!("{}tilt = {tilt}\nphase = {{ tilt = {} }}\n", to(0.8 * x, 0.8 * y), if is_line { format!("{phase}") } else { format!("[{phase}, 0]") }), 2)]
+                vec![cycle(
+                    format!(
+                        "{}tilt = {tilt}\nphase = {{ tilt = {} }}\n",
+                        to(0.8 * x, 0.8 * y),
+                        if is_line { format!("{phase}") } else { format!("[{phase}, 0]") }
+                    ),
+                    2,
+                )]
             }
             Kind::Pauses => {
                 let mut stages = Vec::new();

@@ -257,16 +257,18 @@ impl Increment<'_> {
         (self.law.at(i, j) * pressure).min(strength)
     }
 
-    /// That of every cell; of one that has come into contact, from the moment of touch on.
+    /// That of every cell; of one that has come into contact, that of a whole increment at its rate from the moment of touch on.
     pub(super) fn drift(&self) -> [Array2<f64>; 2] {
-        [0, 1].map(|axis| {
-            Array2::from_shape_fn(self.fields.p.dim(), |(i, j)| {
-                let (at, drift) = ([i, j], self.slip_increment([i, j])[axis]);
-                let entered = self.zone_before.is_some_and(|zone| zone[at] == Zone::Open) && self.fields.p[at] > 0.0;
-                let path = self.past.filter(|_| entered).map(|(past, ratios)| past.path(at, ratios));
-                drift - path.map_or(0.0, |path| path.ahead[axis])
-            })
-        })
+        let mut drift = [0, 1].map(|_| Array2::zeros(self.fields.p.dim()));
+        for ((i, j), &p) in self.fields.p.indexed_iter() {
+            let at = [i, j];
+            let change = self.slip_increment(at);
+            let entered = self.zone_before.is_some_and(|zone| zone[at] == Zone::Open) && p > 0.0;
+            let path = self.past.filter(|_| entered).map(|(past, ratios)| past.path(at, ratios));
+            let found = path.map_or(change, |path| path.rate(change));
+            (0..2).for_each(|axis| drift[axis][at] = found[axis]);
+        }
+        drift
     }
 
     /// Motion of the upper point less that of the lower one in the increment [length].

@@ -43,10 +43,12 @@ pub(super) struct CellPath {
     turn: [f64; 2],
     /// The cell was open: its offset is no slip.
     is_open: bool,
+    /// The moment at which it touches.
+    touch: f64,
 }
 
 impl CellPath {
-    pub(super) const STRAIGHT: Self = Self { ahead: [0.0; 2], turn: [0.0; 2], is_open: false };
+    pub(super) const STRAIGHT: Self = Self { ahead: [0.0; 2], turn: [0.0; 2], is_open: false, touch: 0.0 };
 
     /// The slip at the end of the increment, of a change of displacement.
     pub(super) fn end(&self, change: [f64; 2]) -> [f64; 2] {
@@ -54,6 +56,11 @@ impl CellPath {
         // Nothing from 60 degrees between the chords on.
         let along = (dot(rest, self.turn) - 0.5 * hypot(rest) * hypot(self.turn)).max(0.0);
         [rest[0] - along * self.turn[0], rest[1] - along * self.turn[1]]
+    }
+
+    /// The slip of a whole increment at the rate that a cell which has entered shows from its touch on.
+    pub(super) fn rate(&self, change: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| (change[axis] - self.ahead[axis]) / f64::max(1.0 - self.touch, 0.25))
     }
 
     /// The slip that counts, of a cell that slips or sticks at the end.
@@ -118,7 +125,8 @@ impl Past {
     /// The ratio of the last two changes of the normal load, by which the edge of contact is taken to move: nothing where it turns.
     pub(super) fn edge_ratio(&self, load: &LoadStep, ratio: f64) -> Option<f64> {
         let [.., first, second] = self.loads[..] else { return None };
-        let [old, new] = [[first, second], [second, *load]].map(|[from, to]| to.normal.value() - from.normal.value());
+        let [old, new] =
+            [[first, second], [second, *load]].map(|[from, to]| to.normal.value() - from.normal.value());
         if old == 0.0 && new == 0.0 {
             return Some(ratio);
         }
@@ -152,7 +160,8 @@ impl Past {
                 }
                 let entered = self.pressure.as_ref().is_some_and(|pressure| pressure[at] == 0.0);
                 let fall = match &self.drift[1] {
-                    Some(_) if entered => if self.knew_touch { 0.5 } else { 0.0 },
+                    Some(_) if entered && self.knew_touch => 0.35,
+                    Some(_) if entered => 0.0,
                     None => 0.0,
                     Some(then) => {
                         let rates = dot([then[0][at], then[1][at]], last) / length * self.ratio / length;
@@ -165,12 +174,14 @@ impl Past {
                 CellPath {
                     ahead: last.map(|part| part * ratio * stop),
                     turn: last.map(|part| part / length * (known * c.max(0.0) / (1.0 - 0.5)).sqrt()),
-                    is_open: false,
+                    ..CellPath::STRAIGHT
                 }
             }
             Zone::Open => {
                 let open = CellPath { is_open: true, ..CellPath::STRAIGHT };
-                let ([Some(gap), Some(gap_before)], Some(by_edge)) = (&self.gap, edge_ratio) else { return open };
+                let ([Some(gap), Some(gap_before)], Some(by_edge)) = (&self.gap, edge_ratio) else {
+                    return open;
+                };
                 if gap_before[at] <= gap[at] {
                     return open;
                 }
@@ -182,6 +193,7 @@ impl Past {
                 let slid = [slid[0][at], slid[1][at]];
                 let lag = steps.powf(1.5) / ((1.0 + steps).powf(1.5) - steps.powf(1.5));
                 CellPath {
+                    touch,
                     ahead: [0, 1].map(|axis| 0.7 * steps * slid[axis] + lag * (last[axis] - slid[axis])),
                     ..open
                 }

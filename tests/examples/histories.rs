@@ -50,13 +50,17 @@ fn row(seed: u64, folder: &Path) -> Result<Row, String> {
     let history = RandomHistory::drawn(seed);
     let right = reference(&history, folder)?;
     let where_ = if history.is_line { "line" } else { "point" };
-    let name = format!("{seed} {:?} {where_}, {} of a cycle's increments to press", history.kind, history.pressing);
+    let name =
+        format!("{seed} {:?} {where_}, {} of a cycle's increments to press", history.kind, history.pressing);
     let mut row =
         Row { name, second: Vec::new(), ends: Vec::new(), applications: [0; 2], off_first_law: 0.0 };
     for count in COUNTS {
         let text = history.text(count);
         let (second, ends) = (solved(&text)?, solved(&by_end_points(&text))?);
-        row.off_first_law = [&second, &ends].map(|found| off_first_law(found, 0.0)).into_iter().fold(row.off_first_law, f64::max);
+        row.off_first_law = [&second, &ends]
+            .map(|found| off_first_law(found, 0.0))
+            .into_iter()
+            .fold(row.off_first_law, f64::max);
         row.applications[0] += second.work().convolutions;
         row.applications[1] += ends.work().convolutions;
         row.second.push(End::of(&second).off(&right).map(f64::abs));
@@ -98,7 +102,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         for row in &solved {
             for at in 0..COUNTS.len() {
                 let (error, ends) = (row.second[at][quantity], row.ends[at][quantity]);
-                let told = format!("{}: {name} at {} {error:.1e}, by end points {ends:.1e}", row.name, COUNTS[at]);
+                let told =
+                    format!("{}: {name} at {} {error:.1e}, by end points {ends:.1e}", row.name, COUNTS[at]);
                 if error > SMALL && error > 2.0 * ends {
                     twice.push(told.clone());
                 }
@@ -107,7 +112,12 @@ fn main() -> Result<(), Box<dyn Error>> {
                 }
             }
         }
-        println!("{name}: medians over end points {}; twice {}, grown {}", medians.join(", "), twice.len(), grown.len());
+        println!(
+            "{name}: medians over end points {}; twice {}, grown {}",
+            medians.join(", "),
+            twice.len(),
+            grown.len()
+        );
         if lists {
             twice.iter().for_each(|told| println!("  twice {told}"));
             grown.iter().for_each(|told| println!("  grown {told}"));

@@ -214,12 +214,7 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
         WORK,
         |step| step.external_work,
     ),
-    real(
-        "wear_work",
-        "energy that has gone with what wore off since the start",
-        WORK,
-        |step| step.wear_work,
-    ),
+    real("wear_work", "energy that has gone with what wore off since the start", WORK, |step| step.wear_work),
     real(
         "unresolved_energy",
         "what increments of finite length leave unresolved of the energy balance since the start, an error bar of dissipated_energy",

@@ -51,7 +51,8 @@ impl IncrementProblem<'_> {
         for cell in 0..region.len() {
             let at = region.at(cell);
             let tilted = self.tilted(at);
-            let [normal, x, y] = found.as_ref().map_or([0.0; 3], |found| found.parts().map(|part| part[cell]));
+            let [normal, x, y] =
+                found.as_ref().map_or([0.0; 3], |found| found.parts().map(|part| part[cell]));
             let here = self.undeformed[cell] + tilted + normal - state.approach;
             gap.push(here);
             opened += state.pressure[at] * here;
@@ -64,7 +65,8 @@ impl IncrementProblem<'_> {
 
     /// By how much the plane that the increment tilts by is deeper in a cell [length].
     fn tilted(&self, at: [usize; 2]) -> f64 {
-        let change = |axis: usize| self.load.tilt[axis].motion().map_or(0.0, |now| now - self.state.tilt[axis]);
+        let change =
+            |axis: usize| self.load.tilt[axis].motion().map_or(0.0, |now| now - self.state.tilt[axis]);
         (0..2).map(|axis| change(axis) * (self.stretch.middle[axis] + self.grid.centre(axis, at[axis]))).sum()
     }
 
@@ -107,7 +109,8 @@ impl IncrementProblem<'_> {
             }
             let shear = solved.tractions.shear.at(cell);
             let [x, y] = [0, 1].map(|axis| 0.5 * (state.shear[axis][at] + shear[axis]));
-            let [to_x, to_y] = [moved[0] - turned * grid.centre(1, at[1]), moved[1] + turned * grid.centre(0, at[0])];
+            let [to_x, to_y] =
+                [moved[0] - turned * grid.centre(1, at[1]), moved[1] + turned * grid.centre(0, at[0])];
             let drift = solved.drift.at(cell);
             work += pressure * (approached + self.tilted(at)) + x * to_x + y * to_y;
             slipped += x * drift[0] + y * drift[1];

@@ -100,9 +100,8 @@ impl ContactSolver<'_> {
             apart => apart,
         };
         let mut operators = self.operators_for(region)?;
-        let before = known.unwrap_or_else(|| {
-            increment.state_before(increment.touched().then_some(&mut operators))
-        });
+        let before =
+            known.unwrap_or_else(|| increment.state_before(increment.touched().then_some(&mut operators)));
         let solved = if let Some(apart) = apart {
             Ok(increment.parted(apart, self.displacements_before(&increment, &before), &mut operators))
         } else {
@@ -122,7 +121,7 @@ impl ContactSolver<'_> {
         let mut solved = solved?;
         let rule = (self_influence, self.settings.integration);
         let (after, outcome) = state_after(&increment, &solved, &before, rule);
-        increment.count_since_touch(&mut solved);
+        increment.take_rate_since_touch(&mut solved);
         self.work.outer_iterations += solved.solution.iterations;
         if outcome.residual.equilibrium > self.settings.tolerance {
             increment.check_limit(&solved.tractions, 1.0)?;

@@ -42,7 +42,7 @@ pub(super) struct Before {
 }
 
 /// Change of the tangential displacement of the upper body over the lower in an increment: slip, in contact. Of cells that came into contact
-/// in it, from the moment of touch on.
+/// in it, that of a whole increment at their rate from the moment of touch on.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Drift {
     /// Where it is known; zero elsewhere.

@@ -64,15 +64,19 @@ impl IncrementProblem<'_> {
     }
 
     /// The bodies parted: with how far each cell drifts to there. `last` as above.
-    pub fn parted(&self, apart: Solved, last: Option<&Displacements>, operators: &mut RegionOperators) -> Solved {
+    pub fn parted(
+        &self,
+        apart: Solved,
+        last: Option<&Displacements>,
+        operators: &mut RegionOperators,
+    ) -> Solved {
         let before = self.displacement_before(last, operators);
-        let drift =
-            self.drift(&before, &apart.displacements.tangential, apart.solution.tangential.motion);
+        let drift = self.drift(&before, &apart.displacements.tangential, apart.solution.tangential.motion);
         Solved { drift, ..apart }
     }
 
-    /// Counts the drift of cells that have come into contact from the moment of touch on.
-    pub fn count_since_touch(&self, solved: &mut Solved) {
+    /// Makes the drift of cells that have come into contact what it would be in a whole increment at their rate from the moment of touch on.
+    pub fn take_rate_since_touch(&self, solved: &mut Solved) {
         for cell in 0..self.region.len() {
             let was_open = self.state.zone[self.region.at(cell)] == Zone::Open;
             if was_open && solved.tractions.pressure[cell] > 0.0 {

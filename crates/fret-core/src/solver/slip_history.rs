@@ -14,8 +14,9 @@ use crate::model::{ContactState, Zone};
 /// which they may: where the rate of slip falls with the root of the time left, as beside a stick zone that grows. Where it falls evenly,
 /// that is 0.17. How it fades out, see [`fall`], is by trial.
 const STOP: f64 = 0.27;
-/// A cell that has just entered, whose slip is known from the moment of touch on only, counts so much as one whose slip falls.
-const ENTERED: f64 = 0.5;
+/// A cell that has just entered, of whose slip one rate is known, counts so much as one whose slip falls. By trial: more leaves less of the error
+/// of the stick radius in coarse pressing, and more of that of the loops after it.
+const ENTERED: f64 = 0.35;
 /// A cell that begins to slip has turned on over its slip by this factor from where the shear that held it points at the start of the increment
 /// to the end, over to the slip increment: on average over all moments at which it may begin, with a rate of slip that grows with the root of
 /// the time since then, as beside a stick zone that shrinks.
@@ -39,8 +40,8 @@ pub struct Pace {
 
 /// The paths in the cells of a region, in an increment of a `pace`; `None` where nothing is known.
 ///
-/// *Stop.* Cells that slipped; see [`STOP`]. Nothing where slip does not fall, the whole of it where it falls to half, half of it where a cell
-/// has just entered; nothing where it has, and the moment of its touch was not known. *Start.* Cells that stuck; see [`BEGUN`]. *Entry.* Open
+/// *Stop.* Cells that slipped; see [`STOP`]. Nothing where slip does not fall, the whole of it where it falls to half, [`ENTERED`]
+/// of it where a cell has just entered, and nothing where the moment of its touch was not known. *Start.* Cells that stuck; see [`BEGUN`]. *Entry.* Open
 /// cells; see [`Edge`].
 ///
 /// `beyond` finds the drift of the last increment in the whole region, for cells outside the region of then.
@@ -88,8 +89,8 @@ pub fn slip_path(
         let entering_of = |cells: Range<usize>, _: [&mut [f64]; 0]| -> Vec<(usize, f64)> {
             cells
                 .filter(|&cell| zones[cell] == Zone::Open)
-                .map(|cell| (cell, edge.moment_of_touch(at(cell)) * pace.loads))
-                .filter(|(_, touch)| *touch > 0.0)
+                .map(|cell| (cell, edge.moment_of_touch(at(cell))))
+                .filter(|(_, moment)| *moment > 0.0)
                 .collect()
         };
         let entering = in_portions((region.len(), NUMBERS), [], &entering_of).concat();
@@ -102,12 +103,14 @@ pub fn slip_path(
             if state.zone[at] == Zone::Slip { drift.at(number(at)) } else { [0.0; 2] }
         };
         let mut coming = SlipOfEdge::new(&edge, &state.zone);
-        for (cell, touch) in entering {
+        for (cell, moment) in entering {
+            let touch = moment * pace.loads;
             let here = wide.as_ref().filter(|_| !was_inside(cell)).unwrap_or(&drift).at(cell);
             let slid = coming.at(at(cell), &slip_of);
             let lag = left_of_lag(touch);
             let ahead = [0, 1].map(|axis| EDGE * touch * slid[axis] + lag * (here[axis] - slid[axis]));
             path.ahead.set(cell, ahead);
+            path.touch[cell] = moment;
         }
     }
     Some(path)

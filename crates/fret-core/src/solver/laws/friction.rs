@@ -288,6 +288,23 @@ mod tests {
 
     /// A map whose numbers say where they stand, and a uniform shear strength: in a region they are those of its cells, row by row, and
     /// packed those of the contact.
+    /// Pressure that falls evenly to zero until a moment t, slip that goes on evenly: a quarter of the bound times the motion in the mean over
+    /// all t, whatever its direction across the shear; of shear below the bound its work alike.
+    #[test]
+    fn a_cell_that_leaves_slips_half_its_way() {
+        let moments = (0..1000).map(|k| (f64::from(k) + 0.5) / 1e3);
+        let mean = moments.map(|end| 0.5 * 3.0 * 0.2 * end).sum::<f64>() / 1e3;
+        let slip = slip_until_open([0.2, 0.0], [3.0, 0.0], 3.0);
+        assert!((dissipation([3.0, 0.0], length(slip)) - mean).abs() < 1e-12 && slip[1] == 0.0);
+        let below = slip_until_open([0.12, 0.16], [1.2, 0.0], 3.0);
+        assert!((dissipation([3.0, 0.0], length(below)) - 0.25 * 0.12 * 1.2).abs() < 1e-15);
+        for (drift, shear, bound) in
+            [([-0.2, 0.0], [3.0, 0.0], 3.0), ([0.2, 0.0], [0.0; 2], 3.0), ([0.2, 0.0], [0.0; 2], 0.0)]
+        {
+            assert_eq!(slip_until_open(drift, shear, bound), [0.0; 2]);
+        }
+    }
+
     #[test]
     fn a_region_has_the_numbers_of_its_own_cells() {
         let map = Array2::from_shape_fn((5, 7), |(i, j)| (10 * i + j) as f64);

@@ -28,6 +28,9 @@ use crate::model::{Integration, Zone};
 /// degrees err more and take more applications.
 const FADED: f64 = 0.5;
 
+/// A cell that comes into contact shows its rate of slip from the moment of touch on; less of the increment than this counts for so much.
+const LEAST_LEFT: f64 = 0.25;
+
 /// What is known of the paths before an increment is solved, over the cells of a region or packed over a contact. With empty fields it is
 /// the end-point rule.
 #[derive(Debug, Clone, Default)]
@@ -36,6 +39,8 @@ pub struct SlipPath {
     pub turn: TangentialField,
     /// The offset a [length].
     pub ahead: TangentialField,
+    /// When the edge of contact comes to cells that are open at the start, as a fraction of the increment; 0 where that is not known.
+    pub touch: Vec<f64>,
 }
 
 impl SlipPath {
@@ -44,13 +49,14 @@ impl SlipPath {
         Self {
             turn: TangentialField { x: Vec::new(), y: Vec::new() },
             ahead: TangentialField { x: Vec::new(), y: Vec::new() },
+            touch: Vec::new(),
         }
     };
 
     /// Paths that go straight from the start of the increment to its end, in so many cells.
     pub fn straight(cells: usize) -> Self {
         let zeros = || TangentialField::zeros(cells);
-        Self { turn: zeros(), ahead: zeros() }
+        Self { turn: zeros(), ahead: zeros(), touch: vec![0.0; cells] }
     }
 
     /// Whether it is another rule than that of the end point.
@@ -101,13 +107,14 @@ impl SlipPath {
         [slip[0] + ahead[0], slip[1] + ahead[1]]
     }
 
-    /// The way of a cell that was open and has come into contact [length]: its drift from the moment of touch on.
+    /// Slip of a cell that was open and has come into contact [length], as of a whole increment at its rate: its drift from the moment of touch
+    /// on, over the fraction of the increment that this was.
     pub fn since_touch(&self, cell: usize, drift: [f64; 2]) -> [f64; 2] {
         if !self.turns() {
             return drift;
         }
-        let ahead = self.ahead.at(cell);
-        [drift[0] - ahead[0], drift[1] - ahead[1]]
+        let (ahead, fraction) = (self.ahead.at(cell), (1.0 - self.touch[cell]).max(LEAST_LEFT));
+        [0, 1].map(|axis| (drift[axis] - ahead[axis]) / fraction)
     }
 
     /// The turn packed over a contact.
@@ -301,6 +308,19 @@ mod tests {
         let nothing = SlipPath::default();
         assert!(!nothing.turns() && !nothing.packed(&ContactSet::of(3, |_| true)).turns());
         assert_eq!(nothing.counted(7, [1.0, 2.0], false), [1.0, 2.0]);
+    }
+
+    /// Even slip of 2 in an increment, of which the cell saw what came after its touch: 0.6 of it, or next to nothing.
+    #[test]
+    fn a_cell_that_enters_shows_its_rate() {
+        let mut path = SlipPath::straight(2);
+        path.touch = vec![0.4, 0.95];
+        path.ahead.set(0, [0.8, 0.1]);
+        path.ahead.set(1, [1.9, 0.0]);
+        let found = path.since_touch(0, [2.0, 0.1]);
+        assert!((found[0] - 2.0).abs() < 1e-15 && found[1] == 0.0);
+        assert!((path.since_touch(1, [2.0, 0.0])[0] - 0.4).abs() < 1e-14);
+        assert_eq!(SlipPath::default().since_touch(7, [1.0, 2.0]), [1.0, 2.0]);
     }
 
     #[test]
