@@ -30,7 +30,7 @@ fn a_loop_after_a_coarse_indentation_is_near() {
 }
 
 /// Like spheres without a Poisson effect whose forces grow together from nothing stick, and `shift = l mu approach`, whatever the cells: tangential
-/// and normal response are the same. More increments never err more.
+/// and normal response are the same. More increments do not err more.
 #[test]
 fn a_ray_from_nothing_errs_the_less_the_more_increments() {
     let friction = 0.3;
@@ -52,8 +52,8 @@ fn a_ray_from_nothing_errs_the_less_the_more_increments() {
         println!("{part}: {errors:?}");
         // By end points 4.0e-2, 2.1e-2, 1.5e-2, 1.1e-2, 7.7e-3 with the smaller force.
         assert!(errors[0] < 8e-3 && errors[1..].iter().all(|error| *error < 2.5e-3), "{errors:?}");
-        // A thousandth is what the moments of single cells make.
-        assert!(errors.windows(2).all(|pair| pair[1] < pair[0].max(1e-3)), "{errors:?}");
+        // From 64 increments on the edge moves by half a cell in each, and a thousandth is left: the moments at which single cells are found to touch.
+        assert!(errors.windows(2).all(|pair| pair[1] < 1.1 * pair[0]), "{errors:?}");
     }
 }
 
@@ -83,7 +83,8 @@ fn in_phase(is_line: bool, [poisson, friction]: [f64; 2], increments: usize) -> 
     )
 }
 
-/// Both forces in phase: the error of the second cycle's energy against 480 increments.
+/// Both forces in phase: the error of the second cycle's energy against 480 increments is below that of end points, or below 0.6 %, where that
+/// of end points is small since it changes its sign; 1 % in 12 increments.
 #[test]
 #[ignore = "long: a minute"]
 fn forces_in_phase_are_no_worse_than_by_end_points() {
@@ -112,13 +113,12 @@ fn forces_in_phase_are_no_worse_than_by_end_points() {
             "{is_line} {numbers:?}: {errors:.5?}, by end points {by_end_points:.5?}, limits apart {:.1e}",
             ends[0] / second[0] - 1.0
         );
-        above.extend(
-            errors
-                .iter()
-                .zip(by_end_points)
-                .filter(|(error, other)| error.abs() > other.abs().max(2e-3))
-                .map(|(error, other)| (is_line, numbers, *error, other)),
-        );
+        for (at, (error, other)) in errors.iter().zip(by_end_points).enumerate() {
+            let bound = [1e-2, 6e-3, 2e-3][at];
+            if error.abs() > f64::max(other.abs(), bound) {
+                above.push((is_line, numbers, *error, other));
+            }
+        }
     }
     assert!(above.is_empty(), "{above:?}");
 }
