@@ -83,8 +83,9 @@ fn in_phase(is_line: bool, [poisson, friction]: [f64; 2], increments: usize) -> 
     )
 }
 
-/// Both forces in phase: the error of the second cycle's energy against 480 increments is below that of end points, or below 0.6 %, where that
-/// of end points is small since it changes its sign; 1 % in 12 increments.
+/// Both forces in phase: the error of the second cycle's energy against 480 increments is below that of end points, or below 1.3, 0.9, 0.2 % with 12,
+/// 24, 48 increments: where that of end points changes its sign it is smaller. Before the entry was taken from the normal load, and nothing
+/// across its turn, these were 4.5, 1.9, 0.4 %.
 #[test]
 #[ignore = "long: a minute"]
 fn forces_in_phase_are_no_worse_than_by_end_points() {
@@ -114,7 +115,7 @@ fn forces_in_phase_are_no_worse_than_by_end_points() {
             ends[0] / second[0] - 1.0
         );
         for (at, (error, other)) in errors.iter().zip(by_end_points).enumerate() {
-            let bound = [1e-2, 6e-3, 2e-3][at];
+            let bound = [1.3e-2, 9e-3, 2e-3][at];
             if error.abs() > f64::max(other.abs(), bound) {
                 above.push((is_line, numbers, *error, other));
             }
