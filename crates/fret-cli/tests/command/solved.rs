@@ -192,7 +192,9 @@ fn keeps_the_first_law(name: &str, table: &str) {
     let mut lines = table.lines();
     let head: Vec<&str> = lines.next().unwrap().split(',').collect();
     let columns = ["external_work", "elastic_energy", "dissipated_energy", "wear_work", "unresolved_energy"];
-    let places = columns.map(|column| head.iter().position(|name| *name == column).unwrap());
+    // A head may have a unit behind its name.
+    let is_named = |head: &str, name: &str| head.split(' ').next() == Some(name);
+    let places = columns.map(|column| head.iter().position(|head| is_named(head, column)).unwrap());
     let mut before = [0.0; 5];
     for line in lines {
         let words: Vec<&str> = line.split(',').collect();
