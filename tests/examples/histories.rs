@@ -119,8 +119,12 @@ fn main() -> Result<(), Box<dyn Error>> {
             grown.len()
         );
         if lists {
-            twice.iter().for_each(|told| println!("  twice {told}"));
-            grown.iter().for_each(|told| println!("  grown {told}"));
+            for told in &twice {
+                println!("  twice {told}");
+            }
+            for told in &grown {
+                println!("  grown {told}");
+            }
         }
     }
     let applications = [0, 1].map(|rule| solved.iter().map(|row| row.applications[rule]).sum::<usize>());
