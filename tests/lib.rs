@@ -3,13 +3,14 @@
 pub mod certifier;
 pub mod extreme_cases;
 pub mod random;
+pub mod random_histories;
 pub mod shortcuts;
 pub mod stiff_cases;
 
 use std::fmt::Write;
 
 use fret_core::case::{Attachments, Case};
-use fret_core::history::History;
+use fret_core::history::{History, StepRecord};
 use fret_core::plan::Plan;
 use fret_core::run::{RunError, Silent, Simulation};
 use ndarray::Array2;
@@ -158,6 +159,33 @@ pub fn solved(text: &str) -> History {
 /// The text with slip integrated by the end-point rule.
 pub fn by_end_points(text: &str) -> String {
     text.replacen("[solver]\n", "[solver]\nintegration = \"end_point\"\n", 1)
+}
+
+/// How far the energies of any increment are from the first law: the change of the external work less those of what is stored, dissipated,
+/// gone with wear and unresolved, over the largest of these. What is stored counts by 1e-5: it is rounded to some 1e-14.
+///
+/// `start`: what was stored at the beginning of the history.
+pub fn off_first_law(history: &History, start: f64) -> f64 {
+    let energies = |step: &StepRecord| {
+        [
+            step.external_work,
+            -step.elastic_energy,
+            -step.dissipated_energy,
+            -step.wear_work,
+            -step.unresolved_energy,
+        ]
+    };
+    let mut before = [0.0, -start, 0.0, 0.0, 0.0];
+    let mut worst = 0.0_f64;
+    for step in &history.steps {
+        let now = energies(step);
+        let changes: Vec<f64> = now.iter().zip(&before).map(|(now, before)| now - before).collect();
+        let unit = changes.iter().fold(1e-5 * step.elastic_energy, |most, change| most.max(change.abs()));
+        let off = changes.iter().sum::<f64>().abs();
+        worst = worst.max(if off > 0.0 { off / unit } else { 0.0 });
+        before = now;
+    }
+    worst
 }
 
 /// Output block that keeps all fields of every `every`-th increment.

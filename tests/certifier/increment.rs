@@ -9,14 +9,21 @@ use super::measure::{Raise, dot, hypot, largest, over, size};
 use super::slip_path::{CellPath, Past};
 use super::{Before, Certificate};
 
-/// The rule by which friction dissipates in a cell, per area: the mean of the friction bounds `[before, after]` the increment times the
-/// way. Slip that begins, or ends, in the increment lies on average 5/7 of it away from the end at which the cell sticks.
-pub fn dissipated([before, after]: [f64; 2], way: f64, zones: [Zone; 2]) -> f64 {
-    match zones {
-        [Zone::Stick, Zone::Slip] => (2.0 * before + 5.0 * after) / 7.0 * way,
-        [Zone::Slip, Zone::Stick] => (5.0 * before + 2.0 * after) / 7.0 * way,
-        _ => 0.5 * (before + after) * way,
+/// The rule by which friction dissipates in a cell, per area: the mean of the friction bounds `[before, after]` the increment times the way.
+pub fn dissipated([before, after]: [f64; 2], way: f64) -> f64 {
+    0.5 * (before + after) * way
+}
+
+/// The rule for the slip of a cell that comes out of contact: half of its motion along the shear before, times the fraction of the friction
+/// bound that this shear was.
+pub fn slip_until_open(change: [f64; 2], shear: [f64; 2], bound: f64) -> [f64; 2] {
+    let size = hypot(shear);
+    if size == 0.0 || bound == 0.0 {
+        return [0.0; 2];
     }
+    let along = shear.map(|part| part / size);
+    let half = 0.5 * dot(change, along).max(0.0) * size / bound;
+    along.map(|part| part * half)
 }
 
 /// The way of a slip increment: where a cell slips at both ends of the increment, the arc with it as chord that turns by the angle of the
@@ -56,8 +63,9 @@ pub(super) struct Increment<'a> {
     pub(super) load: LoadStep,
     pub(super) fields: Fields<'a>,
     pub(super) displacements: &'a [Array2<f64>; 3],
-    /// What went before, and the length of this increment over the last, where slip is integrated to second order.
-    pub(super) past: Option<(&'a Past, f64)>,
+    /// What went before, and the length of this increment over the last and the same of the normal load, where slip is integrated to second
+    /// order.
+    pub(super) past: Option<(&'a Past, (f64, Option<f64>))>,
     /// What went before is known.
     pub(super) is_known: bool,
     /// Strain of the lower surface less that of the upper one.
@@ -130,15 +138,19 @@ impl Increment<'_> {
             let zones = [self.zone_before.map_or(Zone::Open, |zone| zone[at]), zone];
             let shear_before = [0, 1].map(|axis| self.before.shear[axis][at]);
             let bound_before = self.bound_at(at, self.before.pressure[at]);
-            work += dissipated([bound_before, bound], way(kept, [shear_before, q], zones), zones);
-            limit += bound * hypot(kept);
+            work += dissipated([bound_before, bound], way(kept, [shear_before, q], zones));
+            limit += bound.max(bound_before) * hypot(kept);
             if zone == Zone::Slip {
                 certificate.on_circle.raise(over((bound - length).max(0.0), most));
             }
-            let path = self.past.map_or(CellPath::STRAIGHT, |(past, ratio)| past.path(at, ratio));
-            if zone != Zone::Slip && certificate.whole && path.counted([0.0; 2], zone) == [0.0; 2] {
+            let path = self.past.map_or(CellPath::STRAIGHT, |(past, ratios)| past.path(at, ratios));
+            if zone == Zone::Stick && certificate.whole && path.counted([0.0; 2], zone) == [0.0; 2] {
                 // Exactly: nothing is added to the slip of a cell that does not slip.
                 certificate.slip.raise(if kept == [0.0; 2] { 0.0 } else { 1.0 });
+            }
+            if zone == Zone::Open && certificate.whole && self.slides {
+                let slip = slip_until_open(self.slip_increment(at), shear_before, bound_before);
+                certificate.slip.raise(over(hypot([kept[0] - slip[0], kept[1] - slip[1]]), scale));
             }
             if !certificate.whole || !self.slides || zone == Zone::Open || p[at] <= 0.0 {
                 continue;
@@ -245,11 +257,18 @@ impl Increment<'_> {
         (self.law.at(i, j) * pressure).min(strength)
     }
 
-    /// That of every cell.
+    /// That of every cell; of one that has come into contact, that of a whole increment at its rate from the moment of touch on.
     pub(super) fn drift(&self) -> [Array2<f64>; 2] {
-        [0, 1].map(|axis| {
-            Array2::from_shape_fn(self.fields.p.dim(), |(i, j)| self.slip_increment([i, j])[axis])
-        })
+        let mut drift = [0, 1].map(|_| Array2::zeros(self.fields.p.dim()));
+        for ((i, j), &p) in self.fields.p.indexed_iter() {
+            let at = [i, j];
+            let change = self.slip_increment(at);
+            let entered = self.zone_before.is_some_and(|zone| zone[at] == Zone::Open) && p > 0.0;
+            let path = self.past.filter(|_| entered).map(|(past, ratios)| past.path(at, ratios));
+            let found = path.map_or(change, |path| path.rate(change));
+            (0..2).for_each(|axis| drift[axis][at] = found[axis]);
+        }
+        drift
     }
 
     /// Motion of the upper point less that of the lower one in the increment [length].

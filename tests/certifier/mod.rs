@@ -157,6 +157,7 @@ impl<'a> Certifier<'a> {
         let ratio = self.past.ratio_to(&load).filter(|_| {
             case.integration == Integration::SecondOrder && record.work.end_point_increments == 0
         });
+        let edge_ratio = ratio.and_then(|ratio| self.past.edge_ratio(&load, ratio));
         let strain = relative_strain(&case.bodies, case.is_line(), record.bulk_stress);
         let increment = Increment {
             grid: &self.plan.grid,
@@ -171,7 +172,7 @@ impl<'a> Certifier<'a> {
             load,
             fields: Fields { p, q, slip, gap, zone },
             displacements: &displacements,
-            past: ratio.map(|ratio| (&self.past, ratio)),
+            past: ratio.map(|ratio| (&self.past, (ratio, edge_ratio))),
             is_known: self.whole >= 2 || case.integration == Integration::EndPoint,
             strain,
         };
@@ -183,21 +184,27 @@ impl<'a> Certifier<'a> {
         self.whole = if record.parts == 1 { self.whole + 1 } else { 0 };
         let before = &mut self.before;
         let past = &mut self.past;
-        past.loads.push(load);
+        // An increment in which nothing changes leaves what is known of those before as it is.
+        let pauses = past.loads.last() == Some(&load) && !past.is_cut;
         past.is_cut = before.worn != fields.worn_depth;
         if past.is_cut {
+            past.loads.push(load);
             *past = Past { loads: std::mem::take(&mut past.loads), is_cut: true, ..Past::default() };
+        } else if pauses {
+            past.gap[0] = Some(gap.clone());
         } else {
+            past.loads.push(load);
             let (drift_before, gap_before) = (past.drift[0].take(), past.gap[0].take());
+            past.knew_touch = gap_before.is_some() && past.gap[1].is_some() && edge_ratio.is_some();
             past.drift = [Some(drift), drift_before.filter(|_| ratio.is_some())];
             past.gap = [Some(gap.clone()), gap_before.filter(|_| ratio.is_some())];
+            past.pressure = Some(before.pressure.clone());
+            past.ratio = ratio.unwrap_or(1.0);
+            past.largest_slip = largest_slip;
         }
-        past.largest_slip = largest_slip;
-        past.pressure = Some(before.pressure.clone());
         past.zone = Some(zone.clone());
         past.edge_slip = OnceCell::new();
         past.shear = Some(q.clone());
-        past.ratio = ratio.unwrap_or(1.0);
         before.tangential = [x, y];
         before.pressure.clone_from(p);
         before.slip.clone_from(slip);

@@ -28,6 +28,8 @@ pub(super) struct Past {
     pub(super) largest_slip: f64,
     /// Length of the last increment over that before.
     pub(super) ratio: f64,
+    /// In the last increment the moments of touch were known.
+    pub(super) knew_touch: bool,
     /// The gap has been changed since by wear: no increment goes on from there.
     pub(super) is_cut: bool,
 }
@@ -41,10 +43,12 @@ pub(super) struct CellPath {
     turn: [f64; 2],
     /// The cell was open: its offset is no slip.
     is_open: bool,
+    /// The moment at which it touches.
+    touch: f64,
 }
 
 impl CellPath {
-    pub(super) const STRAIGHT: Self = Self { ahead: [0.0; 2], turn: [0.0; 2], is_open: false };
+    pub(super) const STRAIGHT: Self = Self { ahead: [0.0; 2], turn: [0.0; 2], is_open: false, touch: 0.0 };
 
     /// The slip at the end of the increment, of a change of displacement.
     pub(super) fn end(&self, change: [f64; 2]) -> [f64; 2] {
@@ -52,6 +56,11 @@ impl CellPath {
         // Nothing from 60 degrees between the chords on.
         let along = (dot(rest, self.turn) - 0.5 * hypot(rest) * hypot(self.turn)).max(0.0);
         [rest[0] - along * self.turn[0], rest[1] - along * self.turn[1]]
+    }
+
+    /// The slip of a whole increment at the rate that a cell which has entered shows from its touch on.
+    pub(super) fn rate(&self, change: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| (change[axis] - self.ahead[axis]) / f64::max(1.0 - self.touch, 0.25))
     }
 
     /// The slip that counts, of a cell that slips or sticks at the end.
@@ -113,8 +122,19 @@ impl Past {
             .then(|| f64::min(f64::sqrt(new_square / old_square), 3.0))
     }
 
-    /// The rule of a cell in an increment `ratio` times as long as the last.
-    pub(super) fn path(&self, at: [usize; 2], ratio: f64) -> CellPath {
+    /// The ratio of the last two changes of the normal load, by which the edge of contact is taken to move: nothing where it turns.
+    pub(super) fn edge_ratio(&self, load: &LoadStep, ratio: f64) -> Option<f64> {
+        let [.., first, second] = self.loads[..] else { return None };
+        let [old, new] =
+            [[first, second], [second, *load]].map(|[from, to]| to.normal.value() - from.normal.value());
+        if old == 0.0 && new == 0.0 {
+            return Some(ratio);
+        }
+        (old * new > 0.0).then(|| f64::min(new / old, 3.0))
+    }
+
+    /// The rule of a cell in an increment `ratio` times as long as the last, in which the normal load changes by `edge_ratio` times as much.
+    pub(super) fn path(&self, at: [usize; 2], (ratio, edge_ratio): (f64, Option<f64>)) -> CellPath {
         let (Some(drift), Some(zone)) = (&self.drift[0], &self.zone) else { return CellPath::STRAIGHT };
         let last = [drift[0][at], drift[1][at]];
         match zone[at] {
@@ -138,10 +158,10 @@ impl Past {
                 if length == 0.0 {
                     return CellPath::STRAIGHT;
                 }
-                let entered = self.drift[1].is_some()
-                    && self.pressure.as_ref().is_some_and(|pressure| pressure[at] == 0.0);
+                let entered = self.pressure.as_ref().is_some_and(|pressure| pressure[at] == 0.0);
                 let fall = match &self.drift[1] {
-                    _ if entered => 0.5,
+                    Some(_) if entered && self.knew_touch => 0.35,
+                    Some(_) if entered => 0.0,
                     None => 0.0,
                     Some(then) => {
                         let rates = dot([then[0][at], then[1][at]], last) / length * self.ratio / length;
@@ -154,29 +174,26 @@ impl Past {
                 CellPath {
                     ahead: last.map(|part| part * ratio * stop),
                     turn: last.map(|part| part / length * (known * c.max(0.0) / (1.0 - 0.5)).sqrt()),
-                    is_open: false,
+                    ..CellPath::STRAIGHT
                 }
             }
             Zone::Open => {
                 let open = CellPath { is_open: true, ..CellPath::STRAIGHT };
-                let [Some(gap), Some(gap_before)] = &self.gap else { return open };
-                let distance = |gap: f64| gap.max(0.0).powf(2.0 / 3.0);
-                let (now, way) = (distance(gap[at]), (distance(gap_before[at]) - distance(gap[at])) * ratio);
+                let ([Some(gap), Some(gap_before)], Some(by_edge)) = (&self.gap, edge_ratio) else {
+                    return open;
+                };
                 if gap_before[at] <= gap[at] {
                     return open;
                 }
-                let mut steepest = 0.0_f64;
-                for (axis, step) in [(0, 1), (0, usize::MAX), (1, 1), (1, usize::MAX)] {
-                    let mut next = at;
-                    next[axis] = at[axis].wrapping_add(step);
-                    steepest = steepest.max(gap.get(next).map_or(0.0, |gap| (distance(*gap) - now).abs()));
-                }
-                let touch = (2.0 * way / steepest - 1.0).clamp(0.0, 1.0) * f64::min(1.0, now / way);
+                let distance = |gap: f64| gap.max(0.0).powf(2.0 / 3.0);
+                let now = distance(gap[at]);
+                let touch = f64::min(1.0, now / ((distance(gap_before[at]) - now) * by_edge));
                 let steps = touch * ratio;
                 let slid = self.edge_slip.get_or_init(|| edge_slip(gap, zone, drift));
                 let slid = [slid[0][at], slid[1][at]];
                 let lag = steps.powf(1.5) / ((1.0 + steps).powf(1.5) - steps.powf(1.5));
                 CellPath {
+                    touch,
                     ahead: [0, 1].map(|axis| 0.7 * steps * slid[axis] + lag * (last[axis] - slid[axis])),
                     ..open
                 }

@@ -5,7 +5,8 @@
 //!
 //! A run with end points counts the mean of the friction bound at both ends times the slip, since a cell that slips has its bound while it does. That
 //! is the mean shear times the slip plus `1/2 (mu p - q . n) |s|` of the cells that had not reached their bound when the increment
-//! began: never less, and the same where a cell slips on as it did.
+//! began: never less, and the same where a cell slips on as it did. Of a cell that comes out of contact it counts half of its mean shear times
+//! its motion, where that is positive. What it leaves of the balance it tells as unresolved.
 
 use std::ops::ControlFlow;
 
@@ -119,24 +120,26 @@ impl Accounts {
         }
     }
 
-    /// Mean shear times slip of the cells in contact, and times what cells slid that were in contact before and are not any more.
-    fn slid(&self, now: &Moment) -> [f64; 2] {
+    /// Mean shear times slip of the cells in contact, and times what cells slid that were in contact before and are not any more: all of it, and
+    /// that of cells where it is positive.
+    fn slid(&self, now: &Moment) -> [f64; 3] {
         let before = &self.before;
-        let mut sums = [0.0; 2];
-        for axis in 0..2 {
-            let [then_q, now_q] = [before.shear.parts()[axis], now.shear.parts()[axis]];
-            let [then_s, now_s] = [before.slip.parts()[axis], now.slip.parts()[axis]];
-            let [then_u, now_u] = [before.aside.parts()[axis], now.aside.parts()[axis]];
-            let shift = now.shift[axis] - before.shift[axis];
-            for cell in 0..now_q.len() {
-                let slip = if now.pressure[cell] > 0.0 {
-                    now_s[cell] - then_s[cell]
-                } else {
-                    shift - (now_u[cell] - then_u[cell])
-                };
-                let left = usize::from(now.pressure[cell] <= 0.0);
-                sums[left] += 0.5 * (then_q[cell] + now_q[cell]) * slip;
-            }
+        let mut sums = [0.0; 3];
+        for cell in 0..now.pressure.len() {
+            let is_loaded = now.pressure[cell] > 0.0;
+            let work: f64 = (0..2)
+                .map(|axis| {
+                    let at = |moment: &Moment, field: fn(&Moment) -> &TangentialField| {
+                        field(moment).parts()[axis][cell]
+                    };
+                    let change = |field: fn(&Moment) -> &TangentialField| at(now, field) - at(before, field);
+                    let moved = now.shift[axis] - before.shift[axis] - change(|moment| &moment.aside);
+                    let slip = if is_loaded { change(|moment| &moment.slip) } else { moved };
+                    0.5 * (at(before, |moment| &moment.shear) + at(now, |moment| &moment.shear)) * slip
+                })
+                .sum();
+            sums[usize::from(!is_loaded)] += work;
+            sums[2] += if is_loaded { 0.0 } else { work.max(0.0) };
         }
         sums.map(|sum| sum * self.area)
     }
@@ -186,11 +189,11 @@ impl Observer for Accounts {
         }
         let crossed = 0.5 * self.area * (dot(&now.pressure, &before.gap) - dot(&before.pressure, &now.gap));
         let stored = now.stored - before.stored;
-        let [slid, left] = self.slid(&now);
+        let [slid, left, forward] = self.slid(&now);
         let missing = done - (stored + slid + left + crossed);
         let rubbed = self.rubbed(&now);
         let too_little = (slid - rubbed).max(0.0);
-        self.dissipated += rubbed;
+        self.dissipated += rubbed + 0.5 * forward;
         let unrecorded = record.dissipated_energy - self.dissipated;
         let [_, size] = self.work;
         self.worst = worse(self.worst, missing.abs().max(unrecorded.abs()).max(too_little) / size);

@@ -9,7 +9,7 @@ const COLUMNS: &str = "increment,stage,normal_force,approach,tangential_force_x,
                        convolutions,preconditioner_passes,outer_iterations,wall_s,contact_cells,stick_cells,regime,\
                        full_grid_convolutions,parts,worn_volume,max_worn_depth,tilt_x,tilt_y,tilt_moment_x,tilt_moment_y,bulk_stress_x,\
                        bulk_stress_y,upper_bulk_stress_x,upper_bulk_stress_y,bulk_work,actuator_x,actuator_y,actuator_approach,\
-                       friction_coefficient,elastic_energy";
+                       friction_coefficient,elastic_energy,external_work,wear_work,unresolved_energy";
 
 /// Increments of the small case: 3 of the indentation, 2 cycles of 8.
 const INCREMENTS: usize = 19;
@@ -183,6 +183,27 @@ fn every_example_of_a_loading_runs() {
         let told = bench.text(&format!("{out}/run.json")) + &bench.text(&format!("{out}/cycles.csv"));
         assert!(told.contains(word), "{name}: no {word}");
         assert_eq!(bench.warnings(&out), "[]", "{name}");
+        keeps_the_first_law(name, &bench.text(&format!("{out}/history.csv")));
+    }
+}
+
+/// What is put in in each increment is stored, dissipated, gone with wear or told as unresolved. What is stored is rounded to some 1e-14.
+fn keeps_the_first_law(name: &str, table: &str) {
+    let mut lines = table.lines();
+    let head: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let columns = ["external_work", "elastic_energy", "dissipated_energy", "wear_work", "unresolved_energy"];
+    // A head may have a unit behind its name.
+    let is_named = |head: &str, name: &str| head.split(' ').next() == Some(name);
+    let places = columns.map(|column| head.iter().position(|head| is_named(head, column)).unwrap());
+    let mut before = [0.0; 5];
+    for line in lines {
+        let words: Vec<&str> = line.split(',').collect();
+        let now: [f64; 5] = places.map(|place| words[place].parse().unwrap());
+        let changes: Vec<f64> = now.iter().zip(&before).map(|(now, before)| now - before).collect();
+        let unit = changes.iter().fold(1e-5 * now[1], |most, change| most.max(change.abs()));
+        let off = changes[0] - changes[1..].iter().sum::<f64>();
+        assert!(off.abs() <= 1e-9 * unit, "{name}: {off:e} of {changes:?}");
+        before = now;
     }
 }
 
@@ -203,6 +224,7 @@ fn no_example_ends_in_a_warning() {
             bench.fret(&["run", path.to_str().unwrap(), "--out", "results/one", "--quiet", "--force"]);
         assert_eq!(answer.code, Some(0), "{}: {}", path.display(), answer.err);
         assert_eq!(bench.warnings("results/one"), "[]", "{}", path.display());
+        keeps_the_first_law(&path.display().to_string(), &bench.text("results/one/history.csv"));
         count += 1;
     }
     assert!(count >= 38, "{count} examples");

@@ -208,6 +208,19 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
         WORK,
         |step| step.elastic_energy,
     ),
+    real(
+        "external_work",
+        "work of forces, moments and bulk stresses on the contact since the start; its change is that of elastic_energy, dissipated_energy, wear_work and unresolved_energy together",
+        WORK,
+        |step| step.external_work,
+    ),
+    real("wear_work", "energy that has gone with what wore off since the start", WORK, |step| step.wear_work),
+    real(
+        "unresolved_energy",
+        "what increments of finite length leave unresolved of the energy balance since the start, an error bar of dissipated_energy",
+        WORK,
+        |step| step.unresolved_energy,
+    ),
 ];
 
 pub(super) fn regime_word(regime: Regime) -> &'static str {

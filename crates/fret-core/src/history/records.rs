@@ -63,6 +63,14 @@ pub struct StepRecord {
     /// Elastic energy that the tractions of the contact store in both bodies and the interface [force x length], of a line contact relative
     /// to the datum. What the springs of a rig store is not in it.
     pub elastic_energy: f64,
+    /// Work of the forces, the moments and the bulk stresses on the contact since the start [force x length], with cycle jumps. Its change in an
+    /// increment is that of `elastic_energy`, `dissipated_energy`, `wear_work` and `unresolved_energy` together, to rounding.
+    pub external_work: f64,
+    /// Energy that has gone with what wore off since the start [force x length].
+    pub wear_work: f64,
+    /// What increments of finite length leave unresolved of the balance of energy since the start [force x length], with cycle jumps: an
+    /// error bar of `dissipated_energy`.
+    pub unresolved_energy: f64,
     /// Volume worn off since the start, by all cycles that computed ones stand for [length^3].
     pub worn_volume: f64,
     /// Largest worn depth [length].

@@ -66,6 +66,18 @@ pub struct ContactState {
     pub bulk_stress: [[f64; 2]; 2],
     /// Energy dissipated by friction since the start [force x length]; with wear that of all cycles that computed ones stand for.
     pub dissipated_energy: f64,
+    /// Elastic energy that the tractions of the contact store in both bodies and the interface [force x length]: half the sum of tractions
+    /// times relative displacements, in a line contact relative to the datum.
+    pub elastic_energy: f64,
+    /// Work of the forces, the moments and the bulk stresses on the contact since the start [force x length]: means of both ends of an
+    /// increment times the change of the motions; with wear that of all cycles that computed ones stand for, which store nothing.
+    pub external_work: f64,
+    /// Energy that has gone with what wore off since the start [force x length]: work of the pressure over the depth worn under it, and
+    /// what thinner bodies store less.
+    pub wear_work: f64,
+    /// External work less what is stored, dissipated and gone with wear since the start [force x length]: what increments of finite length
+    /// leave unresolved; with wear that of all cycles that computed ones stand for.
+    pub unresolved_energy: f64,
     /// Work that the bulk stresses have done on the contact since the start [force x length]: minus the mean shear times the change of
     /// the relative displacement by the strains; with wear that of all cycles that computed ones stand for.
     pub bulk_work: f64,
@@ -89,6 +101,10 @@ impl ContactState {
             tilt: [0.0; 2],
             bulk_stress: [[0.0; 2]; 2],
             dissipated_energy: 0.0,
+            elastic_energy: 0.0,
+            external_work: 0.0,
+            wear_work: 0.0,
+            unresolved_energy: 0.0,
             bulk_work: 0.0,
         }
     }
@@ -136,7 +152,8 @@ impl ContactState {
         let [tilt_x, tilt_y] = self.tilt;
         let motions = [self.approach, self.shift[0], self.shift[1], self.twist, tilt_x, tilt_y];
         let numbers = motions.into_iter().chain(self.bulk_stress.into_iter().flatten());
-        let mut numbers = numbers.chain([self.dissipated_energy, self.bulk_work]);
+        let energies = [self.dissipated_energy, self.elastic_energy, self.external_work, self.wear_work];
+        let mut numbers = numbers.chain(energies).chain([self.unresolved_energy, self.bulk_work]);
         let field = |field: &Array2<f64>| field.dim() == cells.into() && field.iter().all(|v| v.is_finite());
         let accumulated = self.accumulated.iter().flat_map(AccumulatedSlip::fields);
         [&self.pressure, qx, qy, sx, sy].into_iter().chain(&self.worn_depth).chain(accumulated).all(field)

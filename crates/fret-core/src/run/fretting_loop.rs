@@ -50,6 +50,7 @@ struct Start {
     shear: [Array2<f64>; 2],
     approach: f64,
     dissipated_energy: f64,
+    unresolved_energy: f64,
     bulk_work: f64,
 }
 
@@ -115,6 +116,7 @@ impl FrettingLoop {
                 shear: state.shear.clone(),
                 approach: state.approach,
                 dissipated_energy: state.dissipated_energy,
+                unresolved_energy: state.unresolved_energy,
                 bulk_work: state.bulk_work,
             },
             points: vec![first],
@@ -150,9 +152,16 @@ impl FrettingLoop {
         self.contact_area = record.contact_area;
     }
 
-    /// Work of the bulk stress since the start of the history, with that of the cycles that this one, which ends in `state`, stands for.
-    pub fn total_bulk_work(&self, state: &ContactState, stands_for: usize) -> f64 {
-        state.bulk_work + stands_for.saturating_sub(1) as f64 * (state.bulk_work - self.start.bulk_work)
+    /// Adds the energies of the other cycles that this one, which ends in `state`, stands for. They store nothing.
+    pub fn repeat(&self, state: &mut ContactState, stands_for: usize) {
+        let others = stands_for.saturating_sub(1) as f64;
+        let start = &self.start;
+        let dissipated = others * (state.dissipated_energy - start.dissipated_energy);
+        let unresolved = others * (state.unresolved_energy - start.unresolved_energy);
+        state.bulk_work += others * (state.bulk_work - start.bulk_work);
+        state.external_work += dissipated + unresolved;
+        state.dissipated_energy += dissipated;
+        state.unresolved_energy += unresolved;
     }
 
     /// The record of the cycle that ends in `state`.

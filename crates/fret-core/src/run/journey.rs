@@ -128,6 +128,8 @@ impl<'a> Journey<'a> {
             if stage.ends_cycle(k) || k == all { self.cycle_over(stage, record.increment)? } else { None };
         record.dissipated_energy = self.state.dissipated_energy;
         record.bulk_work = self.state.bulk_work;
+        record.external_work = self.state.external_work;
+        record.unresolved_energy = self.state.unresolved_energy;
         [record.worn_volume, record.max_worn_depth] = worn(&self.state, self.plan);
         let steady = ended.as_ref().is_some_and(|cycle| cycle.steady);
         let enough = stage.cycles().is_some_and(|course| self.place.cycles >= course.most);
@@ -276,8 +278,7 @@ impl<'a> Journey<'a> {
         let friction = friction_before.as_ref().unwrap_or_else(|| self.solver.friction());
         let record = cycle.close(&self.state, friction, end);
         self.gauge.add_cycle(&record);
-        self.state.bulk_work = cycle.total_bulk_work(&self.state, stands_for);
-        self.state.dissipated_energy = record.total_dissipated_energy;
+        cycle.repeat(&mut self.state, stands_for);
         Ok(Some(record))
     }
 

@@ -3,7 +3,7 @@
 use ndarray::{Array2, Zip};
 
 use crate::model::{AccumulatedSlip, ContactState, CoulombFriction, Integration, WearLaw, WearRule};
-use crate::solver::{dissipation, friction_bounds, length_of_way, weights_of_ends};
+use crate::solver::{dissipation, friction_bounds, length_of_way};
 
 /// Adds what slips between two states that follow each other under a friction law.
 pub fn add_slip(
@@ -34,15 +34,8 @@ fn ways([before, after]: [&ContactState; 2], integration: Integration) -> Array2
     })
 }
 
-/// Weights of the two states in a mean along the way of slip between them, in every cell.
-fn weights([before, after]: [&ContactState; 2], integration: Integration) -> Array2<[f64; 2]> {
-    Zip::from(&before.zone)
-        .and(&after.zone)
-        .map_collect(|before, after| weights_of_ends(integration, [*before, *after]))
-}
-
 /// Adds `factor` times the energy that friction dissipates by area [pressure x length] between two states that follow each other: the
-/// mean of the bounds at both ends, see [`weights_of_ends`], along the way.
+/// mean of the bounds at both ends along the way.
 fn add_dissipation(
     states: [&ContactState; 2],
     integration: Integration,
@@ -51,12 +44,10 @@ fn add_dissipation(
     energy: &mut Array2<f64>,
 ) {
     let [first, last] = states.map(|state| friction_bounds(friction, &state.pressure));
-    let (ways, weights) = (ways(states, integration), weights(states, integration));
-    Zip::from(energy).and(&first).and(&last).and(&weights).and(&ways).for_each(
-        |energy, first, last, weights, way| {
-            *energy += factor * dissipation([*first, *last], *weights, *way);
-        },
-    );
+    let ways = ways(states, integration);
+    Zip::from(energy).and(&first).and(&last).and(&ways).for_each(|energy, first, last, way| {
+        *energy += factor * dissipation([*first, *last], *way);
+    });
 }
 
 /// Adds the depth [length] worn between two states that follow each other under a friction law; where each layer has a coefficient of
@@ -72,15 +63,12 @@ pub fn add_wear(
     match rule.law {
         WearLaw::Energy => add_dissipation(states, integration, friction, k, depth),
         WearLaw::Archard => {
-            let (ways, weights) = (ways(states, integration), weights(states, integration));
-            Zip::from(depth)
-                .and(&states[0].pressure)
-                .and(&states[1].pressure)
-                .and(&weights)
-                .and(&ways)
-                .for_each(|depth, first, last, weights, way| {
-                    *depth += k * dissipation([*first, *last], *weights, *way);
-                });
+            let ways = ways(states, integration);
+            Zip::from(depth).and(&states[0].pressure).and(&states[1].pressure).and(&ways).for_each(
+                |depth, first, last, way| {
+                    *depth += k * dissipation([*first, *last], *way);
+                },
+            );
         }
     }
 }

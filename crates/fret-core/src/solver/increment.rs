@@ -4,6 +4,7 @@
 use ndarray::Array2;
 
 use super::coupled;
+use super::energy::StateBefore;
 use super::increment_problem::{IncrementProblem, Solved, centres};
 use super::laws::limit::sliding_fraction;
 use super::laws::rigid_motions::CellPositions;
@@ -14,10 +15,10 @@ use super::operators::{Method, RegionOperators};
 use super::prescribed::NormalLoad;
 use super::region::Region;
 use super::sequential;
-use super::slip_history::slip_path;
+use super::slip_history::{Pace, slip_path};
 use super::state_after::state_after;
 use super::stretch::Stretch;
-use super::tractions::Tractions;
+use super::tractions::{Displacements, Tractions};
 use super::{ContactSolver, Coupling, Increment, IterationCallback, Outcome, SolveError};
 use crate::compliance::{OperatorSet, SurfaceCompliance};
 use crate::model::{ContactState, Control, Integration, LoadStep, Rig, Scheme};
@@ -43,12 +44,12 @@ impl ContactSolver<'_> {
             Some(pressure) => self.region_around(pressure, state),
             None => self.region_for(state, load),
         };
-        let mut ratio = self.ratio_to_last(load).filter(|_| self.is_of_second_order());
+        let mut pace = self.pace(load).filter(|_| self.is_of_second_order());
         loop {
-            let solved = self.solve_in(region, (start.as_ref(), ratio), (state, load), callback);
-            if let (Some(_), Err(SolveError::NotConverged { .. })) = (ratio, &solved) {
+            let solved = self.solve_in(region, (start.as_ref(), pace), (state, load), callback);
+            if let (Some(_), Err(SolveError::NotConverged { .. })) = (pace, &solved) {
                 self.work.end_point_increments += 1;
-                ratio = None;
+                pace = None;
                 continue;
             }
             let whole = Region::whole(self.grid.cells());
@@ -71,7 +72,7 @@ impl ContactSolver<'_> {
             let stick_area = contact_area * fraction;
             let increment =
                 Increment { state: after, outcome, contact_area, stick_area, gap, work: self.work };
-            self.remember((state, load), (region, ratio), solved, &increment);
+            self.remember((state, load), (region, pace), solved, &increment);
             return Ok(increment);
         }
     }
@@ -81,12 +82,12 @@ impl ContactSolver<'_> {
         self.coupling != Coupling::Frictionless && self.settings.integration == Integration::SecondOrder
     }
 
-    /// One increment with all contact inside `region`, from the pressure `start` when there is one; `ratio`: of its length to that of the
-    /// last increment, which it goes on from.
+    /// One increment with all contact inside `region`, from the pressure `start` when there is one; `pace`: that of the increment, where it goes
+    /// on from the last one.
     fn solve_in(
         &mut self,
         region: Region,
-        (start, ratio): (Option<&Array2<f64>>, Option<f64>),
+        (start, pace): (Option<&Array2<f64>>, Option<Pace>),
         (state, load): (&ContactState, &LoadStep),
         callback: IterationCallback<'_>,
     ) -> Result<(Solved, ContactState, Outcome), SolveError> {
@@ -102,25 +103,40 @@ impl ContactSolver<'_> {
             bodies,
             region,
         );
-        if let Some(solved) = increment.apart() {
-            let (after, outcome) = state_after(&increment, &solved, 0.0, self.settings.integration);
-            return Ok((solved, after, outcome));
-        }
-        increment.start = start.map(|pressure| region.gather(pressure));
-        let tractions = self.predicted(start, (state, load), region);
+        increment.pauses = self.pauses(load);
+        let known = self.memory.last.as_ref().map(|last| StateBefore::of_gap(&last.gap, region));
+        let apart = match increment.apart() {
+            Some(solved) if !increment.touched() => {
+                let before = known.unwrap_or_else(|| increment.state_before(None));
+                let rule = (0.0, self.settings.integration);
+                let (after, outcome) = state_after(&increment, &solved, &before, rule);
+                return Ok((solved, after, outcome));
+            }
+            apart => apart,
+        };
         let mut operators = self.operators_for(region)?;
-        if let Some(ratio) = ratio {
-            let beyond =
-                |before: &Before, drift: &Drift| increment.drift_to_here(before, drift, &mut operators);
-            increment.path = slip_path(&self.memory, state, (ratio, region), beyond).unwrap_or_default();
-        }
-        let solved = self.solve_with(&mut operators, &increment, tractions, callback);
+        let before =
+            known.unwrap_or_else(|| increment.state_before(increment.touched().then_some(&mut operators)));
+        let solved = if let Some(apart) = apart {
+            Ok(increment.parted(apart, self.displacements_before(&increment, &before), &mut operators))
+        } else {
+            increment.start = start.map(|pressure| region.gather(pressure));
+            let tractions = self.predicted(start, (state, load), region);
+            if let Some(pace) = pace {
+                let beyond =
+                    |before: &Before, drift: &Drift| increment.drift_to_here(before, drift, &mut operators);
+                increment.path = slip_path(&self.memory, state, (pace, region), beyond).unwrap_or_default();
+            }
+            self.solve_with(&mut operators, (&increment, &before), tractions, callback)
+        };
         self.work += operators.take_work(region.len() as f64 / self.cells_of_whole());
         let self_influence = operators.compliance.self_influence().tangential;
         self.operators = Some(operators);
         self.memory.region = Some(region);
-        let solved = solved?;
-        let (after, outcome) = state_after(&increment, &solved, self_influence, self.settings.integration);
+        let mut solved = solved?;
+        let rule = (self_influence, self.settings.integration);
+        let (after, outcome) = state_after(&increment, &solved, &before, rule);
+        increment.take_rate_since_touch(&mut solved);
         self.work.outer_iterations += solved.solution.iterations;
         if outcome.residual.equilibrium > self.settings.tolerance {
             increment.check_limit(&solved.tractions, 1.0)?;
@@ -132,13 +148,12 @@ impl ContactSolver<'_> {
     fn solve_with(
         &self,
         operators: &mut RegionOperators,
-        increment: &IncrementProblem<'_>,
+        (increment, before): (&IncrementProblem<'_>, &StateBefore),
         tractions: Tractions,
         callback: IterationCallback<'_>,
     ) -> Result<Solved, SolveError> {
-        let last = self.memory.last.as_ref().filter(|last| last.region == increment.region);
         let keeps_pressure = self.whose_pressure_is_kept(increment.region, increment.load).is_some();
-        let last = last.map(|last| &last.displacements);
+        let last = self.displacements_before(increment, before);
         let response = || self.response.get();
         let (settings, operators_of) = (&self.settings, self.operator_set());
         let method = Method { settings, response: &response, waves: self.waves(), operators: operators_of };
@@ -148,6 +163,16 @@ impl ContactSolver<'_> {
                 sequential::solve(increment, tractions, (last, keeps_pressure), operators, settings, callback)
             }
         }
+    }
+
+    /// Displacements of the state before in the region of an increment, where they are known.
+    fn displacements_before<'b>(
+        &'b self,
+        increment: &IncrementProblem<'_>,
+        before: &'b StateBefore,
+    ) -> Option<&'b Displacements> {
+        let last = self.memory.last.as_ref().filter(|last| last.region == increment.region);
+        last.map(|last| &last.displacements).or(before.displacements.as_ref())
     }
 
     /// Tractions to start from: those of a contact that grows to the pressure from coarser grids, or that goes on as it did.
@@ -187,39 +212,39 @@ impl ContactSolver<'_> {
         Ok((gap, contact_area))
     }
 
-    /// Remembers an increment that went from a state to a load, for the next one.
+    /// Remembers an increment that went from a state to a load, for the next one. One in which nothing changed leaves what is known of those
+    /// before as it is.
     fn remember(
         &mut self,
         (state, load): (&ContactState, &LoadStep),
-        (region, ratio): (Region, Option<f64>),
+        (region, pace): (Region, Option<Pace>),
         solved: Solved,
         increment: &Increment,
     ) {
-        let after = &increment.state;
+        let pauses = self.pauses(load);
         let last = self.memory.last.take();
-        let contact_area = last.as_ref().map_or(0.0, |last| last.contact_area);
-        let (gap, drift) = last.filter(|_| ratio.is_some()).map(|last| (last.gap, last.drift)).unzip();
-        let previous = self.memory.last_load.replace(*load);
-        self.memory.before = previous.map(|load| Before {
-            load,
-            tractions: GridTractions::of(state),
-            contact_area,
-            gap,
-            drift,
-        });
         let mut drift = Drift::default();
-        if self.is_of_second_order() {
+        if let (true, Some(last)) = (pauses, &last) {
+            drift.clone_from(&last.drift);
+        } else if self.is_of_second_order() {
+            let after = &increment.state;
+            let shift = [0, 1].map(|axis| after.shift[axis] - state.shift[axis]);
+            let gap_before = self.memory.before.as_ref().and_then(|before| before.gap.as_ref());
             drift = Drift {
                 region: Some(region),
                 field: solved.drift,
-                motion: [
-                    after.shift[0] - state.shift[0],
-                    after.shift[1] - state.shift[1],
-                    after.twist - state.twist,
-                ],
+                motion: [shift[0], shift[1], after.twist - state.twist],
                 strain: self.stretch(state, load).strain,
-                ratio: ratio.unwrap_or(1.0),
+                ratio: pace.map_or(1.0, |pace| pace.loads),
+                knows_touch: gap_before.is_some() && pace.is_some_and(|pace| pace.edge.is_some()),
             };
+        }
+        if !pauses {
+            let contact_area = last.as_ref().map_or(0.0, |last| last.contact_area);
+            let (gap, drift) = last.filter(|_| pace.is_some()).map(|last| (last.gap, last.drift)).unzip();
+            let tractions = GridTractions::of(state);
+            let previous = self.memory.last_load.replace(*load);
+            self.memory.before = previous.map(|load| Before { load, tractions, contact_area, gap, drift });
         }
         self.memory.last = Some(LastIncrement {
             region,

@@ -54,6 +54,8 @@ pub struct IncrementProblem<'a> {
     pub stretch: Stretch,
     /// What is known of the paths of slip.
     pub path: SlipPath,
+    /// Whether nothing changes in it.
+    pub pauses: bool,
     /// A pressure to start from, whatever the state before.
     pub start: Option<Vec<f64>>,
 }
@@ -103,6 +105,7 @@ impl<'a> IncrementProblem<'a> {
             positions,
             stretch,
             path: SlipPath::default(),
+            pauses: false,
             start: None,
         }
     }

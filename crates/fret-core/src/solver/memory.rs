@@ -39,7 +39,8 @@ pub(super) struct Before {
     pub drift: Option<Drift>,
 }
 
-/// Change of the tangential displacement of the upper body over the lower in an increment: slip, in contact.
+/// Change of the tangential displacement of the upper body over the lower in an increment: slip, in contact. Of cells that came into contact
+/// in it, that of a whole increment at their rate from the moment of touch on.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Drift {
     /// Where it is known; zero elsewhere.
@@ -52,6 +53,8 @@ pub(super) struct Drift {
     pub strain: [f64; 2],
     /// Length of the increment over that of the one before it, in the loads [-]; 1 where it does not go on from that.
     pub ratio: f64,
+    /// Whether the moments of touch in it were known.
+    pub knows_touch: bool,
 }
 
 impl Drift {

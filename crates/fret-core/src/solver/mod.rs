@@ -11,6 +11,7 @@ mod contact_problem;
 mod contact_set;
 mod contact_vector;
 mod coupled;
+mod energy;
 #[cfg(test)]
 mod few_cells;
 mod full_grid_check;
@@ -54,7 +55,7 @@ use crate::model::{
 
 pub(crate) use laws::friction::{bounds_on_grid as friction_bounds, dissipation};
 pub(crate) use laws::limit::sliding_fraction;
-pub(crate) use laws::slip_path::{length_of_way, weights_of_ends};
+pub(crate) use laws::slip_path::length_of_way;
 pub use memory::SolverMemory;
 pub(crate) use outcome::worst;
 pub use outcome::{Increment, Outcome, Regime, Residual, Resultants, Work};

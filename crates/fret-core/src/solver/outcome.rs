@@ -111,9 +111,6 @@ pub struct Outcome {
     pub contact_cells: usize,
     /// Cells that stick.
     pub stick_cells: usize,
-    /// Elastic energy that the tractions of the contact have stored in both bodies and the interface [force x length]: half the sum of
-    /// tractions times relative displacements, in a line contact relative to the datum.
-    pub elastic_energy: f64,
     /// What the contact does.
     pub regime: Regime,
     /// How well the equations hold.

@@ -6,7 +6,7 @@ use std::borrow::Cow;
 use ndarray::Array2;
 
 use super::contact_set::ContactSet;
-use super::increment_problem::IncrementProblem;
+use super::increment_problem::{IncrementProblem, Solved};
 use super::memory::{Before, Drift};
 use super::operators::RegionOperators;
 use super::settings::Coupling;
@@ -14,7 +14,7 @@ use super::stretch::Stretch;
 use super::tractions::Displacements;
 use crate::compliance::SurfaceCompliance;
 use crate::fields::add_scaled;
-use crate::model::TangentialField;
+use crate::model::{TangentialField, Zone};
 
 impl IncrementProblem<'_> {
     /// Tangential displacement of the state before [length], less that by the bulk stresses: slip counts its increment alone. `last`: the
@@ -61,6 +61,28 @@ impl IncrementProblem<'_> {
         let mut from = before.clone();
         from.add_scaled(-1.0, &self.path.ahead);
         Cow::Owned(from)
+    }
+
+    /// The bodies parted: with how far each cell drifts to there. `last` as above.
+    pub fn parted(
+        &self,
+        apart: Solved,
+        last: Option<&Displacements>,
+        operators: &mut RegionOperators,
+    ) -> Solved {
+        let before = self.displacement_before(last, operators);
+        let drift = self.drift(&before, &apart.displacements.tangential, apart.solution.tangential.motion);
+        Solved { drift, ..apart }
+    }
+
+    /// Makes the drift of cells that have come into contact what it would be in a whole increment at their rate from the moment of touch on.
+    pub fn take_rate_since_touch(&self, solved: &mut Solved) {
+        for cell in 0..self.region.len() {
+            let was_open = self.state.zone[self.region.at(cell)] == Zone::Open;
+            if was_open && solved.tractions.pressure[cell] > 0.0 {
+                solved.drift.set(cell, self.path.since_touch(cell, solved.drift.at(cell)));
+            }
+        }
     }
 
     /// Change of the tangential displacement of the upper body over the lower in every cell of the region.

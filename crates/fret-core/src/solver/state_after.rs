@@ -2,19 +2,20 @@
 //! and residuals.
 
 use super::contact_set::ContactSet;
+use super::energy::StateBefore;
 use super::increment_problem::{IncrementProblem, Solved};
-use super::laws::friction::{dissipation, slips};
-use super::laws::slip_path::{length_of_way, weights_of_ends};
+use super::laws::friction::{dissipation, is_inside, slip_until_open, slips};
+use super::laws::slip_path::length_of_way;
 use super::outcome::{Outcome, Regime, Residual, Resultants};
-use crate::fields::sum;
+use crate::fields::{length, sum};
 use crate::model::{ContactState, Integration, Zone};
 
-/// The state after an increment, and what happened. `self_influence`: of the shear of a cell [length/pressure].
+/// The state after an increment from `start`, and what happened. `self_influence`: of the shear of a cell [length/pressure].
 pub(super) fn state_after(
     problem: &IncrementProblem<'_>,
     solved: &Solved,
-    self_influence: f64,
-    integration: Integration,
+    start: &StateBefore,
+    (self_influence, integration): (f64, Integration),
 ) -> (ContactState, Outcome) {
     let stiffness = if self_influence > 0.0 { 1.0 / self_influence } else { 0.0 };
     let solution = &solved.solution;
@@ -47,6 +48,8 @@ pub(super) fn state_after(
         stored += pressure[cell] * moved.normal[cell] + q[0] * ux + q[1] * uy;
         let (zone, slip) = if slips(q, end, bound[place], stiffness) {
             (Zone::Slip, slip.at(place))
+        } else if problem.pauses && before.zone[at] == Zone::Slip && !is_inside(q, bound[place]) {
+            (Zone::Slip, [0.0; 2]) // on the verge, as before
         } else {
             stick_cells += 1;
             (Zone::Stick, [0.0; 2])
@@ -59,13 +62,27 @@ pub(super) fn state_after(
         let shear_before = [0, 1].map(|axis| before.shear[axis][at]);
         let zones = [before.zone[at], zone];
         let way = length_of_way(integration, slip, zones, [shear_before, q]);
-        let weights = weights_of_ends(integration, zones);
-        dissipated += dissipation([bound_before[place], bound[place]], weights, way);
+        dissipated += dissipation([bound_before[place], bound[place]], way);
+    }
+    for cell in (0..region.len()).filter(|&cell| pressure[cell] <= 0.0) {
+        let at = region.at(cell);
+        let shear = [0, 1].map(|axis| before.shear[axis][at]);
+        if shear == [0.0; 2] {
+            continue;
+        }
+        let (bound, _) = problem.friction.at(cell, before.pressure[at]);
+        let slip = slip_until_open(solved.drift.at(cell), shear, bound);
+        for axis in 0..2 {
+            state.slip[axis][at] += slip[axis];
+        }
+        dissipated += dissipation([bound, 0.0], length(slip));
     }
     let area = grid.cell_area();
     let area_of_copies = area * problem.copies as f64;
-    state.dissipated_energy += dissipated * area_of_copies;
-    state.bulk_work += bulk_work(problem, &state) * area_of_copies;
+    state.elastic_energy = 0.5 * stored * area_of_copies;
+    let by_bulk = bulk_work(problem, &state);
+    state.bulk_work += by_bulk * area_of_copies;
+    problem.account(solved, start, [dissipated, by_bulk], &mut state);
     let limit = sum(&bound);
     let resultants = Resultants {
         normal: sum(pressure) * area,
@@ -89,9 +106,8 @@ pub(super) fn state_after(
             second_moment.map(|sum| sum * area),
         )),
     };
-    let elastic_energy = 0.5 * stored * area_of_copies;
     let contact_cells = contact.len();
-    let outcome = Outcome { resultants, contact_cells, stick_cells, elastic_energy, regime, residual };
+    let outcome = Outcome { resultants, contact_cells, stick_cells, regime, residual };
     (state, outcome)
 }
 
@@ -122,6 +138,9 @@ fn tractions_and_motions(problem: &IncrementProblem<'_>, solved: &Solved) -> Con
     state.bulk_stress = load.bulk_stress;
     state.dissipated_energy = before.dissipated_energy;
     state.bulk_work = before.bulk_work;
+    state.external_work = before.external_work;
+    state.wear_work = before.wear_work;
+    state.unresolved_energy = before.unresolved_energy;
     state
 }
 

@@ -28,10 +28,8 @@ use crate::model::{Integration, Zone};
 /// degrees err more and take more applications.
 const FADED: f64 = 0.5;
 
-/// Where in an increment a cell slips that begins to in it, from its start: the mean over its slip. It begins at any moment t, and slips with
-/// the root of the time since then, as beside a stick zone that shrinks: `(1 - t)^(3/2)` in all, at `t + 3/5 (1 - t)` in the mean, and
-/// summed over all t at 5/7. A cell that comes to rest, with the root of the time left: the same from the end.
-const PART: f64 = 5.0 / 7.0;
+/// A cell that comes into contact shows its rate of slip from the moment of touch on; less of the increment than this counts for so much.
+const LEAST_LEFT: f64 = 0.25;
 
 /// What is known of the paths before an increment is solved, over the cells of a region or packed over a contact. With empty fields it is
 /// the end-point rule.
@@ -41,6 +39,8 @@ pub struct SlipPath {
     pub turn: TangentialField,
     /// The offset a [length].
     pub ahead: TangentialField,
+    /// When the edge of contact comes to cells that are open at the start, as a fraction of the increment; 0 where that is not known.
+    pub touch: Vec<f64>,
 }
 
 impl SlipPath {
@@ -49,13 +49,14 @@ impl SlipPath {
         Self {
             turn: TangentialField { x: Vec::new(), y: Vec::new() },
             ahead: TangentialField { x: Vec::new(), y: Vec::new() },
+            touch: Vec::new(),
         }
     };
 
     /// Paths that go straight from the start of the increment to its end, in so many cells.
     pub fn straight(cells: usize) -> Self {
         let zeros = || TangentialField::zeros(cells);
-        Self { turn: zeros(), ahead: zeros() }
+        Self { turn: zeros(), ahead: zeros(), touch: vec![0.0; cells] }
     }
 
     /// Whether it is another rule than that of the end point.
@@ -106,6 +107,16 @@ impl SlipPath {
         [slip[0] + ahead[0], slip[1] + ahead[1]]
     }
 
+    /// Slip of a cell that was open and has come into contact [length], as of a whole increment at its rate: its drift from the moment of touch
+    /// on, over the fraction of the increment that this was.
+    pub fn since_touch(&self, cell: usize, drift: [f64; 2]) -> [f64; 2] {
+        if !self.turns() {
+            return drift;
+        }
+        let (ahead, fraction) = (self.ahead.at(cell), (1.0 - self.touch[cell]).max(LEAST_LEFT));
+        [0, 1].map(|axis| (drift[axis] - ahead[axis]) / fraction)
+    }
+
     /// The turn packed over a contact.
     pub fn packed(&self, contact: &ContactSet) -> Self {
         if !self.turns() {
@@ -138,16 +149,6 @@ pub fn length_of_way(
     let known = ((angle.cos() - FADED) / (1.0 - FADED)).max(0.0);
     let arc = 0.5 * angle / (0.5 * angle).sin();
     chord * (1.0 + known * (arc - 1.0))
-}
-
-/// Weights of the start and the end of an increment in a mean along the way of its slip, in a run of this integration, from what a cell
-/// does at both: a half each, but where it begins to slip or comes to rest, see [`PART`].
-pub fn weights_of_ends(integration: Integration, zones: [Zone; 2]) -> [f64; 2] {
-    match (integration, zones) {
-        (Integration::SecondOrder, [Zone::Stick, Zone::Slip]) => [1.0 - PART, PART],
-        (Integration::SecondOrder, [Zone::Slip, Zone::Stick]) => [PART, 1.0 - PART],
-        _ => [0.5; 2],
-    }
 }
 
 /// The slip at the end of the increment, up to a factor, from the slip less the offset and the vector t.
@@ -224,29 +225,6 @@ mod tests {
         }
         assert_eq!(way_of(Integration::EndPoint, slips, 20.0), 0.5);
         assert_eq!(length_of_way(Integration::SecondOrder, [0.3, -0.4], slips, [[0.0; 2], at(9.0)]), 0.5);
-    }
-
-    /// What begins to slip does so late in its increment, what comes to rest early: means over the slip of cells that do at all moments, with a
-    /// rate as the root of the time since or to then.
-    #[test]
-    fn slip_that_begins_is_near_the_end() {
-        let moments = || (0..1000).map(|k| (f64::from(k) + 0.5) / 1e3);
-        let (mut slip, mut at) = (0.0, 0.0);
-        for begin in moments() {
-            for now in moments().filter(|now| *now > begin) {
-                slip += (now - begin).sqrt();
-                at += now * (now - begin).sqrt();
-            }
-        }
-        let weights = |zones| weights_of_ends(Integration::SecondOrder, zones);
-        let [first, last] = weights([Zone::Stick, Zone::Slip]);
-        assert!((last - at / slip).abs() < 1e-3 && first + last == 1.0, "{last} {}", at / slip);
-        assert_eq!(weights([Zone::Slip, Zone::Stick]), [last, first]);
-        for zones in [[Zone::Slip; 2], [Zone::Open, Zone::Slip], [Zone::Slip, Zone::Open]] {
-            assert_eq!(weights(zones), [0.5; 2]);
-        }
-        let by_end_points = weights_of_ends(Integration::EndPoint, [Zone::Stick, Zone::Slip]);
-        assert_eq!(by_end_points, [0.5; 2]);
     }
 
     /// Slip a small angle off the shear that held the cell: the tangent grows by the factor, whatever the size of that shear; a direction
@@ -330,6 +308,19 @@ mod tests {
         let nothing = SlipPath::default();
         assert!(!nothing.turns() && !nothing.packed(&ContactSet::of(3, |_| true)).turns());
         assert_eq!(nothing.counted(7, [1.0, 2.0], false), [1.0, 2.0]);
+    }
+
+    /// Even slip of 2 in an increment, of which the cell saw what came after its touch: 0.6 of it, or next to nothing.
+    #[test]
+    fn a_cell_that_enters_shows_its_rate() {
+        let mut path = SlipPath::straight(2);
+        path.touch = vec![0.4, 0.95];
+        path.ahead.set(0, [0.8, 0.1]);
+        path.ahead.set(1, [1.9, 0.0]);
+        let found = path.since_touch(0, [2.0, 0.1]);
+        assert!((found[0] - 2.0).abs() < 1e-15 && found[1] == 0.0);
+        assert!((path.since_touch(1, [2.0, 0.0])[0] - 0.4).abs() < 1e-14);
+        assert_eq!(SlipPath::default().since_touch(7, [1.0, 2.0]), [1.0, 2.0]);
     }
 
     #[test]

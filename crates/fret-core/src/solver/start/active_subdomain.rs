@@ -20,9 +20,7 @@ impl ContactSolver<'_> {
         if !self.in_region || self.response.is_periodic() {
             return Region::whole(cells);
         }
-        let has_friction = self.coupling != Coupling::Frictionless;
-        let loaded =
-            |i: usize, j: usize| pressure[[i, j]] > 0.0 || has_friction && state.pressure[[i, j]] > 0.0;
+        let loaded = |i: usize, j: usize| pressure[[i, j]] > 0.0 || state.pressure[[i, j]] > 0.0;
         let axes = self.symmetry.axes();
         let margin = if self.coupling == Coupling::Coupled {
             (self.width(&Region::around(cells, axes, 1, |n| n, loaded)) / MARGIN_FRACTION).max(MARGIN)

@@ -6,8 +6,9 @@ use ndarray::Array2;
 
 use super::super::ContactSolver;
 use super::super::memory::{Before, GridTractions};
+use super::super::slip_history::Pace;
 use super::self_similar::{SelfSimilarGrowth, sum_of};
-use crate::model::controls::{CONTROLS, ControlRow, FREEDOMS, TANGENTIAL};
+use crate::model::controls::{CONTROLS, ControlRow, FREEDOMS, NORMAL, TANGENTIAL};
 use crate::model::{ContactState, Control, LoadStep, Reached};
 
 impl ContactSolver<'_> {
@@ -75,10 +76,22 @@ impl ContactSolver<'_> {
     }
 
     /// Length of this load increment over that of the last one, 3 at the most, when it goes on in about the same direction: less than 60
-    /// degrees off.
-    pub(in super::super) fn ratio_to_last(&self, load: &LoadStep) -> Option<f64> {
+    /// degrees off. The edge goes with the normal load; where that stays, with the others.
+    pub(in super::super) fn pace(&self, load: &LoadStep) -> Option<Pace> {
         let [old, both, new] = self.increments_to(load)?;
-        (both > 0.5 * (old * new).sqrt()).then(|| (new / old).sqrt().min(3.0))
+        let loads = (both > 0.5 * (old * new).sqrt()).then(|| (new / old).sqrt().min(3.0))?;
+        let (before, last) = (&self.memory.before.as_ref()?.load, self.memory.last_load.as_ref()?);
+        let [then, now] = [before.change_to(last)?[NORMAL], last.change_to(load)?[NORMAL]];
+        let edge = match then * now {
+            product if product > 0.0 => Some((now / then).min(3.0)),
+            _ => (then == 0.0 && now == 0.0).then_some(loads),
+        };
+        Some(Pace { loads, edge })
+    }
+
+    /// Whether nothing changes in the increment to `load`.
+    pub(in super::super) fn pauses(&self, load: &LoadStep) -> bool {
+        self.memory.last.is_some() && self.memory.last_load.as_ref() == Some(load)
     }
 
     /// Takes the last load for what the controls of `load` would have prescribed to reach the same state: a stage that prescribes another
