@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fret_core::case::Scan;
-use numpy::{PyArrayMethods, PyReadonlyArray2};
+use numpy::PyReadonlyArray2;
 use pyo3::prelude::{PyAnyMethods, PyResult, Python};
 
 /// What Python hands back: heights with NaN for holes, side lengths, places of points, unit, and who read the file.
