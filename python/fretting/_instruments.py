@@ -1,6 +1,7 @@
 """Files of instruments: read by SurfaceTopography, handed to the core with the lengths that they state."""
 
 import warnings
+from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -26,7 +27,7 @@ def read(path: Path, channel: str | None) -> Scan:
         In words, why there are none.
     """
     try:
-        from SurfaceTopography.IO import open_topography
+        open_topography = import_module("SurfaceTopography.IO").open_topography
     except ImportError as error:
         raise NoScanError(
             "a file of an instrument, perhaps: SurfaceTopography, which reads some 40 formats, "

@@ -46,10 +46,9 @@ class Style:
     """A look that holds from now on, or, in a ``with``, until its end."""
 
     def __init__(self, settings: dict[str, Any]) -> None:
-        import matplotlib as mpl
-
-        self._before = {name: mpl.rcParams[name] for name in settings}
-        mpl.rcParams.update(settings)
+        self._parameters = _parameters()
+        self._before = {name: self._parameters[name] for name in settings}
+        self._parameters.update(settings)
 
     def __enter__(self) -> Self:
         """Begin a part with this look."""
@@ -59,9 +58,14 @@ class Style:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """Restore the look that was before."""
-        import matplotlib as mpl
+        self._parameters.update(self._before)
 
-        mpl.rcParams.update(self._before)
+
+def _parameters() -> Any:
+    """Return what matplotlib keeps of its look."""
+    import matplotlib as mpl
+
+    return mpl.rcParams
 
 
 @checked

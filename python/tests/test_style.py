@@ -31,13 +31,14 @@ def test_a_figure_is_one_column_wide_and_the_look_before_comes_back(history: fre
     before = dict(matplotlib.rcParams)
     with fretting.plot.style("paper"):
         axes = history.plot_loop()
-        width, height = axes.figure.get_size_inches()
+        figure: Any = axes.figure
+        width, height = figure.get_size_inches()
         assert width * 25.4 == pytest.approx(85.0)
         assert height < width
         assert matplotlib.rcParams["savefig.dpi"] == 300.0
         # nothing of the figure lies outside of it
-        axes.figure.canvas.draw()
-        inside = axes.figure.get_tightbbox().padded(-0.02)
+        figure.canvas.draw()
+        inside = figure.get_tightbbox().padded(-0.02)
         assert inside.x0 >= 0.0 and inside.y0 >= 0.0 and inside.x1 <= width and inside.y1 <= height
     assert dict(matplotlib.rcParams) == before
     plt.close("all")
@@ -54,7 +55,7 @@ def test_axes_are_written_in_other_units(history: fretting.History) -> None:
     assert fretting.plot.scale(axes, "um").get_xlabel().endswith("[um]")
     image = fretting.plot.scale(history.plot_field("pressure"), "um", "MPa")
     assert image.get_xlabel() == "x [um]" and image.get_ylabel() == "y [um]"
-    bar = image.images[0].colorbar
+    bar: Any = image.images[0].colorbar
     assert "[MPa]" in bar.ax.get_ylabel()
     plt.close("all")
 
