@@ -20,7 +20,7 @@ use crate::tally::Tally;
 pub const STATES: &str = "states";
 /// Where the run started.
 pub const START: &str = "start.state";
-const FIRST_LINE: &str = "fretting state 2\n";
+const FIRST_LINE: &str = "fretting state 3\n";
 
 /// The states while a run goes.
 #[derive(Debug)]

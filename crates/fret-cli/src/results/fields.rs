@@ -62,7 +62,9 @@ impl Fields {
             name != "worn_depth" || !plan["case"]["wear"].is_null() || path.join(name).join("c").exists() // of the wear that it started from
         };
         let is_asked = |field: &&history::Field| {
-            asked.iter().any(|name| name == field.asked_as) && is_filled(field.name)
+            let moves = plan["case"]["kinematics"]["displacement"] == "finite";
+            let is_own = field.asked_as == "worn_depth" && field.name != "worn_depth";
+            asked.iter().any(|name| name == field.asked_as) && is_filled(field.asked_as) && (moves || !is_own)
         };
         let names: Vec<&'static str> = FIELDS.iter().filter(is_asked).map(|field| field.name).collect();
         let [nx, ny] = grid.cells();

@@ -10,8 +10,8 @@ use crate::document::Mistake;
 use crate::kernel::uniform_response;
 use crate::model::stage::Stage;
 use crate::model::{
-    Beyond, Conduction, ContactPair, CoulombFriction, FrictionEvolution, Integration, LoadStep, Profile,
-    ResidualStress, Rig, Scheme, WearRule,
+    Beyond, Conduction, ContactPair, CoulombFriction, FrictionEvolution, Integration, Kinematics, LoadStep,
+    Profile, ResidualStress, Rig, Scheme, WearRule,
 };
 use crate::subsurface::fatigue::LayerConstants;
 
@@ -48,6 +48,9 @@ pub struct Case {
     pub conduction: Conduction,
     /// Undeformed gap.
     pub profile: Profile,
+    /// How the surfaces move against each other.
+    #[serde(skip_serializing_if = "Kinematics::is_default")]
+    pub kinematics: Kinematics,
     /// Friction law at the start; stages may change it.
     pub friction: CoulombFriction,
     /// How the friction coefficient evolves, where it does.

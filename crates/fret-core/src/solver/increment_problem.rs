@@ -50,6 +50,8 @@ pub struct IncrementProblem<'a> {
     pub tangential: TangentialLoads,
     /// What the bulk stresses do in the increment.
     pub stretch: Stretch,
+    /// What moving surfaces add to the displacement before [length].
+    pub carried: Option<TangentialField>,
     /// What is known of the paths of slip.
     pub path: SlipPath,
     /// A pressure to start from, whatever the state before.
@@ -97,6 +99,7 @@ impl<'a> IncrementProblem<'a> {
             tangential: TangentialLoads::new(state, load, rig, [positions.length, area]),
             positions,
             stretch,
+            carried: None,
             path: SlipPath::default(),
             start: None,
         }
@@ -164,6 +167,7 @@ impl<'a> IncrementProblem<'a> {
         let TangentialLoads { motion, resultant, .. } = self.tangential;
         motion != [0.0; 3]
             || !self.stretch.is_none()
+            || self.carried.is_some()
             || resultant != [0.0; 3]
             || self.state.shear.iter().any(|shear| shear.iter().any(|q| *q != 0.0))
     }

@@ -101,6 +101,9 @@ pub struct ContactSolver<'a> {
     /// Slope of the upper body that is in the gap, and the gap without it.
     tilt: [f64; 2],
     level: Option<Array2<f64>>,
+    /// What moving surfaces add to the displacement before the next increment [length], and the cells that the contact may move by in it.
+    carried: Option<[Array2<f64>; 2]>,
+    travel: usize,
 }
 
 impl<'a> ContactSolver<'a> {
@@ -137,6 +140,8 @@ impl<'a> ContactSolver<'a> {
             beyond: Beyond::Body,
             tilt: [0.0; 2],
             level: None,
+            carried: None,
+            travel: 0,
         }
     }
 
@@ -228,6 +233,28 @@ impl<'a> ContactSolver<'a> {
         let tilt = std::mem::take(&mut self.tilt);
         self.level = None;
         self.set_tilt(tilt);
+    }
+
+    /// The undeformed gap in force [length].
+    pub fn undeformed(&self) -> &Array2<f64> {
+        &self.undeformed
+    }
+
+    /// Goes on with the undeformed gap [length] of surfaces that have moved: the displacements known so far, which are those of the
+    /// tractions, still hold.
+    pub fn move_gap(&mut self, undeformed: Array2<f64>) {
+        self.undeformed = undeformed;
+        self.coarse = None;
+        let tilt = std::mem::take(&mut self.tilt);
+        self.level = None;
+        self.set_tilt(tilt);
+    }
+
+    /// What surfaces that move by `cells` along each axis in the next increments add to the tangential displacement before [length], shape of the
+    /// grid: displacements that were elsewhere in the state before.
+    pub fn set_carried(&mut self, carried: Option<[Array2<f64>; 2]>, cells: [f64; 2]) {
+        self.carried = carried;
+        self.travel = cells[0].abs().max(cells[1].abs()).ceil() as usize;
     }
 
     /// Goes on with bodies that respond otherwise; `table`: their frequency response, where it is used. As with another gap, the displacements

@@ -95,6 +95,7 @@ fn tractions_and_motions(problem: &IncrementProblem<'_>, solved: &Solved) -> Con
     let IncrementProblem { grid, region, state: before, .. } = *problem;
     let mut state = ContactState::untouched(grid.cells());
     state.worn_depth.clone_from(&before.worn_depth);
+    state.upper_worn_depth.clone_from(&before.upper_worn_depth);
     state.accumulated.clone_from(&before.accumulated);
     region.place(&solved.tractions.pressure, &mut state.pressure);
     region.place(&solved.tractions.shear.x, &mut state.shear[0]);
