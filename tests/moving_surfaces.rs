@@ -97,20 +97,25 @@ const RADIUS: f64 = 100.0;
 /// Slides it to and fro by `stroke` until a body has lost `limit` somewhere; wear coefficients of the lower and the upper body.
 fn worn_line(coefficients: [f64; 2], stroke: f64, limit: f64) -> History {
     let [lower, upper] = coefficients;
-    let force = PI * 0.05 * 0.05 / (4.0 * RADIUS); // a Hertz half-width of 0.05
+    let force = line_force();
     solved(&format!(
-        "[grid]\ncells = 160\nsize = 2.4\n[upper]\nrigid = true\nwear_coefficient = {upper:e}\n[lower]\n\
+        "[grid]\ncells = 96\nsize = 2.4\n[upper]\nrigid = true\nwear_coefficient = {upper:e}\n[lower]\n\
          substrate = {{ young = 0.91, poisson = 0.3, wear_coefficient = {lower:e} }}\n[profile.cylinder]\nradius = {RADIUS}\naxis = \"y\"\n\
          [friction]\ncoefficient = 0.3\n{FINITE}[wear]\nlimit = {limit:e}\nevery = 1000000\nlargest_step = 0.05\n\
          [output]\nfields = [\"worn_depth\", \"pressure\"]\n\
          [[load]]\nnormal_force = {force:e}\nincrements = 2\n\
-         [[load]]\nshift = [{stroke:?}, 0.0]\ncycles = 200000\nincrements = 32\n"
+         [[load]]\nshift = [{stroke:?}, 0.0]\ncycles = 200000\nincrements = 16\n"
     ))
+}
+
+/// Of a Hertz half-width of 0.15.
+fn line_force() -> f64 {
+    PI * 0.15 * 0.15 / (4.0 * RADIUS)
 }
 
 /// Depth [length] by which the elastic surfaces yield to an even pressure over the scar, at the most: `2 ln 2 P/(pi E*)`.
 fn elastic_depth() -> f64 {
-    2.0 * 2.0_f64.ln() * (PI * 0.05 * 0.05 / (4.0 * RADIUS)) / PI
+    2.0 * 2.0_f64.ln() * line_force() / PI
 }
 
 /// The depths of both bodies at the end, and the places of the cells.
@@ -139,29 +144,43 @@ fn assert_nothing_is_lost(history: &History, coefficients: [f64; 2]) {
     }
 }
 
-/// Only the flat wears: it becomes the envelope of the cylinder that moves, `d - max(0, |x| - s)^2/(2 R)`, of the area
-/// `2 s d + 4/3 d sqrt(2 R d)`. Exact geometry.
+/// Slides a body that does not wear to and fro by `stroke`, held at an approach, until nothing presses on a flat that wears.
+fn cut(grid: &str, profile: &str, stroke: f64, approach: f64, cycles: usize) -> History {
+    solved(&format!(
+        "[grid]\n{grid}\n[upper]\nsubstrate = {{ young = 1.82, poisson = 0.3 }}\n[lower]\n\
+         substrate = {{ young = 1.82, poisson = 0.3, wear_coefficient = 0.03 }}\n{profile}\n[friction]\ncoefficient = 0.3\n{FINITE}\
+         [wear]\nevery = 1000000\nlargest_step = 1.0\n[output]\nfields = [\"worn_depth\"]\n\
+         [[load]]\napproach = {approach:e}\nincrements = 2\n\
+         [[load]]\nshift = [{stroke:?}, 0.0]\ncycles = {cycles}\nincrements = 16\n"
+    ))
+}
+
+/// Only the flat wears, under a cylinder held at an approach d: it becomes the envelope of the cylinder that moves,
+/// `d - max(0, |x| - s)^2/(2 R)`, of the area `2 s d + 4/3 d sqrt(2 R d)`. Exact geometry: nothing presses any more.
+///
+/// What the ends of the stroke press on last takes long: the body is there for a sixteenth of a cycle.
 #[test]
+#[ignore = "long: thousands of cycles until nothing presses at the ends of the stroke"]
 fn a_flat_wears_to_the_envelope_of_the_cylinder() {
     for stroke in [0.15, 0.3] {
-        let history = worn_line([1.0, 0.0], stroke, 3.2e-3);
-        assert_nothing_is_lost(&history, [1.0, 0.0]);
+        let depth = 3.2e-3;
+        let profile = format!("[profile.cylinder]\nradius = {RADIUS}\naxis = \"y\"");
+        let history = cut("cells = 72\nsize = 2.64", &profile, stroke, depth, 20_000);
+        assert_nothing_is_lost(&history, [0.03, 0.0]);
         let ([lower, _], x) = scars(&history);
-        let depth = lower.iter().copied().fold(0.0, f64::max);
         let area = lower.sum() * history.grid.cell_area();
         let exact = 2.0 * stroke * depth + 4.0 / 3.0 * depth * (2.0 * RADIUS * depth).sqrt();
         let envelope = |x: f64| depth - (x.abs() - stroke).max(0.0).powi(2) / (2.0 * RADIUS);
         let off = x.iter().zip(&lower).map(|(x, w)| (w - envelope(*x).max(0.0)).abs()).fold(0.0, f64::max);
-        let elastic = elastic_depth();
+        let [first, last] = [2, history.steps.len() - 1].map(|step| history.steps[step].normal_force);
         println!(
-            "flat worn by +-{stroke}: {} computed cycles, depth {depth:.3e}, shape off by {:.2} % of it (elastic {:.2} %), area {:+.2} %",
+            "flat worn by +-{stroke}: {} computed cycles, force {first:.1e} -> {last:.1e}, shape off by {:.2} % of the depth, area {:+.2} %",
             history.cycles.len(),
             100.0 * off / depth,
-            100.0 * elastic / depth,
             100.0 * (area / exact - 1.0)
         );
-        assert!(off < 0.01 * depth + elastic, "{off:e}");
-        assert!((area / exact - 1.0).abs() < 0.02, "{}", area / exact);
+        assert!(off < 0.01 * depth, "{off:e}");
+        assert!((area / exact - 1.0).abs() < 0.01, "{}", area / exact);
     }
 }
 
@@ -169,8 +188,8 @@ fn a_flat_wears_to_the_envelope_of_the_cylinder() {
 #[test]
 fn a_cylinder_wears_flat_whatever_the_stroke() {
     for stroke in [0.15, 0.3] {
-        let history = worn_line([0.0, 1.0], stroke, 3.2e-3);
-        assert_nothing_is_lost(&history, [0.0, 1.0]);
+        let history = worn_line([0.0, 0.03], stroke, 3.2e-3);
+        assert_nothing_is_lost(&history, [0.0, 0.03]);
         let ([_, upper], x) = scars(&history);
         let depth = upper.iter().copied().fold(0.0, f64::max);
         let area = upper.sum() * history.grid.cell_area();
@@ -192,13 +211,13 @@ fn a_cylinder_wears_flat_whatever_the_stroke() {
 /// with equality where they touch; volumes of each to rounding.
 #[test]
 fn both_bodies_wear_and_nothing_is_lost() {
-    let (stroke, coefficients) = (0.2, [1.0, 0.5]);
+    let (stroke, coefficients) = (0.2, [0.03, 0.015]);
     let history = worn_line(coefficients, stroke, 2e-3);
     assert_nothing_is_lost(&history, coefficients);
     let ([lower, upper], x) = scars(&history);
     let sum = &lower + &upper;
     // At no shift the bodies touch over the middle: there the sum is the gap of the cylinder less its lowest.
-    let middle = sum[[80, 0]];
+    let middle = sum[[48, 0]];
     let off = x
         .iter()
         .zip(&sum)
@@ -215,29 +234,46 @@ fn both_bodies_wear_and_nothing_is_lost() {
     assert!((fields.worn_depth.as_ref().unwrap() - &sum).iter().all(|off| off.abs() < 1e-15));
 }
 
-/// A ball: the flat becomes its envelope, of the volume `pi R d^2 + 8/3 s d sqrt(2 R d)`.
+/// In gross slip a cycle of +-s takes `4 mu P s`, less what the bodies give. Cells that the contact enters and leaves by the way have their part
+/// in it, of whatever size an increment is.
 #[test]
+fn moving_surfaces_in_gross_slip_dissipate_force_times_way() {
+    for increments in [16, 32, 64] {
+        let history = solved(&format!(
+            "[grid]\ncells = 128\nsize = 2.4\n[upper]\nsubstrate = {{ young = 1.82, poisson = 0.3 }}\n[lower]\n\
+             substrate = {{ young = 1.82, poisson = 0.3 }}\n[profile.cylinder]\nradius = {RADIUS}\naxis = \"y\"\n\
+             [friction]\ncoefficient = 0.3\n{FINITE}[[load]]\nnormal_force = {:e}\nincrements = 2\n\
+             [[load]]\nshift = [0.4, 0.0]\ncycles = 2\nincrements = {increments}\n",
+            9.0 * line_force()
+        ));
+        let force = history.steps.last().unwrap().normal_force;
+        let energy = history.cycles.last().unwrap().dissipated_energy;
+        let expected = 4.0 * 0.3 * force * 0.4;
+        println!("loop of {increments} increments: energy {:+.2e} of 4 mu P s", energy / expected - 1.0);
+        // What the bodies give before they slide: mu P/(pi E*) times a logarithm, some 1e-3 of the stroke.
+        assert!((energy / expected - 1.0).abs() < 4e-3, "{increments}: {}", energy / expected);
+    }
+}
+
+/// A ball held at an approach: the flat becomes its groove, of the volume `pi R d^2 + 8/3 s d sqrt(2 R d)`.
+#[test]
+#[ignore = "long: thousands of cycles until nothing presses at the ends of the stroke"]
 fn a_flat_wears_to_the_groove_of_a_ball() {
-    let (stroke, radius) = (0.3, 100.0);
-    let history = solved(&format!(
-        "[grid]\ncells = [56, 44]\nsize = [2.8, 2.2]\n[upper]\nrigid = true\n[lower]\n\
-         substrate = {{ young = 0.91, poisson = 0.3, wear_coefficient = 1.0 }}\n[profile.sphere]\nradius = {radius}\n\
-         [friction]\ncoefficient = 0.3\n{FINITE}[wear]\nlimit = 3.2e-3\nevery = 1000000\nlargest_step = 0.1\n[output]\nfields = [\"worn_depth\"]\n\
-         [[load]]\nnormal_force = 4e-5\nincrements = 2\n\
-         [[load]]\nshift = [{stroke:?}, 0.0]\ncycles = 200000\nincrements = 16\n"
-    ));
+    let (stroke, radius, depth) = (0.3, 100.0, 2e-3);
+    let grid = "cells = [40, 28]\nsize = [2.2, 1.54]";
+    let history = cut(grid, &format!("[profile.sphere]\nradius = {radius}"), stroke, depth, 8000);
     let ([lower, _], _) = scars(&history);
-    let depth = lower.iter().copied().fold(0.0, f64::max);
     let volume = lower.sum() * history.grid.cell_area();
     let exact = PI * radius * depth * depth + 8.0 / 3.0 * stroke * depth * (2.0 * radius * depth).sqrt();
     println!(
-        "groove of a ball: {} computed cycles, depth {depth:.3e}, volume {:+.2} %",
+        "groove of a ball: {} computed cycles, depth {:+.2} %, volume {:+.2} %",
         history.cycles.len(),
+        100.0 * (lower.iter().copied().fold(0.0, f64::max) / depth - 1.0),
         100.0 * (volume / exact - 1.0)
     );
-    assert!((volume / exact - 1.0).abs() < 0.03, "{}", volume / exact);
-    // symmetric in y to the bit, since half of it was computed; along x nothing is
-    assert_eq!(lower.row(30), lower.row(30).slice(ndarray::s![..;-1]));
+    assert!((volume / exact - 1.0).abs() < 0.01, "{}", volume / exact);
+    // symmetric in y to the bit, since half of it was computed
+    assert_eq!(lower.row(20), lower.row(20).slice(ndarray::s![..;-1]));
 }
 
 /// A rigid ball slides over an elastic flat to the left; seen from the flat, that is the upper body and slides over the ball to the right. The

@@ -92,6 +92,7 @@ impl ContactSolver<'_> {
             return Ok((solved, after, outcome));
         }
         increment.start = start.map(|pressure| region.gather(pressure));
+        increment.travels = self.travel > 0;
         increment.carried = self.carried.as_ref().map(|carried| region.gather_tangential(carried));
         let tractions = self.predicted(start, (state, load), region);
         let mut operators = self.operators_for(region)?;

@@ -50,6 +50,8 @@ pub struct IncrementProblem<'a> {
     pub tangential: TangentialLoads,
     /// What the bulk stresses do in the increment.
     pub stretch: Stretch,
+    /// Whether the contact moves over the grid, so that cells enter and leave it by the way.
+    pub travels: bool,
     /// What moving surfaces add to the displacement before [length].
     pub carried: Option<TangentialField>,
     /// What is known of the paths of slip.
@@ -99,6 +101,7 @@ impl<'a> IncrementProblem<'a> {
             tangential: TangentialLoads::new(state, load, rig, [positions.length, area]),
             positions,
             stretch,
+            travels: false,
             carried: None,
             path: SlipPath::default(),
             start: None,

@@ -50,7 +50,11 @@ pub(super) fn state_after(
             stick_cells += 1;
             (Zone::Stick, [0.0; 2])
         };
-        let slip = problem.path.counted(cell, slip, before.zone[at] == Zone::Open);
+        let slip = if problem.travels {
+            slip
+        } else {
+            problem.path.counted(cell, slip, before.zone[at] == Zone::Open)
+        };
         state.zone[at] = zone;
         for axis in 0..2 {
             state.slip[axis][at] += slip[axis];
@@ -60,6 +64,9 @@ pub(super) fn state_after(
         let way = length_of_way(integration, slip, zones, [shear_before, q]);
         let weights = weights_of_ends(integration, zones);
         dissipated += dissipation([bound_before[place], bound[place]], weights, way);
+    }
+    if problem.travels {
+        dissipated += left_behind(problem, solved, &mut state);
     }
     let area = grid.cell_area();
     let area_of_copies = area * problem.copies as f64;
@@ -88,6 +95,28 @@ pub(super) fn state_after(
     let contact_cells = contact.len();
     let outcome = Outcome { resultants, contact_cells, stick_cells, elastic_energy, regime, residual };
     (state, outcome)
+}
+
+/// What cells dissipate that a travelling contact leaves behind [pressure x length], whose slip is counted in the state: as those that enter
+/// it, they slip all the way under the mean of their bounds before and after, of which one is zero. So the sum over all cells is that of a
+/// contact which stays, whatever the way of an increment.
+fn left_behind(problem: &IncrementProblem<'_>, solved: &Solved, state: &mut ContactState) -> f64 {
+    let IncrementProblem { region, state: before, .. } = *problem;
+    let pressure = &solved.tractions.pressure;
+    let left = ContactSet::of(region.len(), |cell| {
+        pressure[cell] <= 0.0 && before.zone[region.at(cell)] == Zone::Slip
+    });
+    let law = problem.friction.packed(&left);
+    let bounds = law.bound(&left.packed(&region.gather(&before.pressure))).bound;
+    let mut dissipated = 0.0;
+    for (cell, bound) in left.cells().zip(bounds) {
+        let slip = solved.drift.at(cell);
+        for axis in 0..2 {
+            state.slip[axis][region.at(cell)] += slip[axis];
+        }
+        dissipated += dissipation([bound, 0.0], [0.5; 2], slip[0].hypot(slip[1]));
+    }
+    dissipated
 }
 
 /// Tractions and motions after an increment; slip, zones and dissipated energy are still those before.
