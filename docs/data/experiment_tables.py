@@ -81,14 +81,8 @@ def scar(of: Measured) -> Table:
         "measured": "measured",
         "finite_elements": "finite elements, moving surfaces",
         "computed": "computed, surfaces stay",
-        "moving": "computed, surfaces move",
     }
-    rms = {
-        "measured": "-",
-        "finite_elements": f"{wear['rms_finite_elements']:.2f}",
-        "computed": f"{wear['rms']:.2f}",
-        "moving": f"{wear['rms_moving']:.2f}",
-    }
+    rms = {"measured": "-", "finite_elements": f"{wear['rms_finite_elements']:.2f}", "computed": f"{wear['rms']:.2f}"}
     rows = [
         [
             text,
@@ -213,15 +207,6 @@ def numbers(of: Measured) -> dict[str, str]:
         "scar_depth": percent(wear["computed"]["depth"] / wear["measured"]["depth"] - 1),
         "scar_width": percent(wear["computed"]["half_width"] / wear["measured"]["half_width"] - 1),
         "scar_area": percent(wear["computed"]["area"] / wear["measured"]["area"] - 1),
-        "scar_moving_depth": percent(wear["moving"]["depth"] / wear["measured"]["depth"] - 1),
-        "scar_moving_width": percent(wear["moving"]["half_width"] / wear["measured"]["half_width"] - 1),
-        "scar_moving_area": percent(wear["moving"]["area"] / wear["measured"]["area"] - 1),
-        "scar_moving_elements": ", ".join(
-            percent(wear["moving"][name] / wear["finite_elements"][name] - 1) for name in ("depth", "half_width", "area")
-        ),
-        "scar_moving_grid": percent(
-            _spread([wear["moving"]["depth"], *(row["depth"] for row in wear["moving_coarser"])])
-        ).lstrip("+"),
         "scar_elements_depth": percent(wear["finite_elements"]["depth"] / wear["measured"]["depth"] - 1),
         "scar_elements_width": percent(wear["finite_elements"]["half_width"] / wear["measured"]["half_width"] - 1),
         "scar_stroke": f"{0.025 / wear['first_half_width']:.1f}",

@@ -75,9 +75,8 @@ def kharaz() -> dict[str, Any]:
 
 def mccoll() -> dict[str, Any]:
     """Return the scar of the flat: measured, by finite elements that move, and by the program."""
-    history, moving = scars.mccoll(320), scars.mccoll(320, moving=True)
+    history = scars.mccoll(320)
     place, depth = scars.mccoll_scar(history)
-    _, moved = scars.mccoll_scar(moving, moving=True)
     at, seen = scars.measured_scar()
     near = np.abs(at) < 0.3
     element, worn = scars.columns("finite_elements")
@@ -86,9 +85,7 @@ def mccoll() -> dict[str, Any]:
     return {
         "x": [round(float(x), 6) for x in place[half:]],
         "depth": [round(float(d), 5) for d in depth[half:]],
-        "moved": [round(float(d), 5) for d in moved[half:]],
         "computed": {**_scar(place, depth), "cycles": len(cycles["cycle"])},
-        "moving": {**_scar(place, moved), "cycles": len(moving.cycles["cycle"])},
         "measured": {
             "depth": float(seen[np.abs(at) < 0.06].mean()),
             "deepest": float(seen.max()),
@@ -101,7 +98,6 @@ def mccoll() -> dict[str, Any]:
             "area": 2e-3 * float(np.trapezoid(worn, element)),
         },
         "rms": float(np.sqrt(np.mean((seen - np.interp(at, place, depth))[near] ** 2))),
-        "rms_moving": float(np.sqrt(np.mean((seen - np.interp(at, place, moved))[near] ** 2))),
         "rms_finite_elements": float(
             np.sqrt(np.mean((seen - np.interp(np.abs(at), element, worn, right=0.0))[near] ** 2))
         ),
@@ -115,11 +111,6 @@ def mccoll() -> dict[str, Any]:
         "coarser": [
             {"cells": cells, "jump": jump, **_scar(*scars.mccoll_scar(scars.mccoll(cells, jump=jump)))}
             for cells, jump in ((80, 24), (160, 12))
-        ],
-        "moving_coarser": [
-            {"cells": cells, "jump": jump, "increments": increments,
-             **_scar(*scars.mccoll_scar(scars.mccoll(cells, jump=jump, increments=increments, moving=True), moving=True))}
-            for cells, jump, increments in ((80, 24, 16), (160, 12, 16), (160, 12, 32))
         ],
     }
 

@@ -1,7 +1,7 @@
 """Worn scars beside measured ones: a cylinder and a ball in gross slip, and the closed forms of a finite stroke.
 
-Lengths in mm, forces in N. Each with surfaces that stay where they are and with surfaces that move with their bodies; the
-closed forms say what a finite stroke changes.
+Lengths in mm, forces in N. Profiles stay where they are, unless they are asked to move with their bodies; the closed
+forms say what a finite stroke changes.
 """
 
 import csv
@@ -80,7 +80,7 @@ def mccoll(
 
 
 def mccoll_scar(history: fretting.History, moving: bool = False) -> tuple[Any, Any]:
-    """Return places [mm] and depth [um] of the flat's scar: its own, or its fraction of the wear depth of both bodies."""
+    """Return places [mm] and depth [um] of the flat's scar: its own, or its fraction of the depth of both bodies."""
     if moving:
         return history.x, 1e3 * history.field("lower_worn_depth")
     return history.x, 1e3 * history.field("worn_depth") * FLAT / (FLAT + CYLINDER)

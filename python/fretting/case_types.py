@@ -118,6 +118,12 @@ What is subtracted from heights.
 """
 
 
+Displacement: TypeAlias = Literal["small", "finite"]
+"""
+How far the surfaces are taken to move.
+"""
+
+
 Driver: TypeAlias = Literal["energy", "slip_distance", "cycles"]
 """
 What the friction coefficient follows.
@@ -199,6 +205,19 @@ How slip is integrated over an increment.
 NamedInterface: TypeAlias = Literal["bonded", "frictionless"]
 
 
+class Kinematics(TypedDict):
+    """
+    How the surfaces move against each other.
+    """
+
+    displacement: NotRequired[Displacement]
+    """
+    "small": opposite points of the surfaces stay opposite, for a shift that is small against the contact; "finite": profile,
+    topography and wear of the upper body move with it by its shift, and each body wears in its own frame, the lower one in that of the
+    grid. A table [profile] is then the upper body's. Default: "small".
+    """
+
+
 Law: TypeAlias = Literal["exponential", "linear"]
 """
 How Young's modulus runs over the depth.
@@ -248,7 +267,8 @@ class Output(TypedDict):
     """
     fields: NotRequired[Sequence[str]]
     """
-    Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`", "friction". Default: pressure, shear, slip, zone.
+    Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`" (of bodies that move against each other also of each),
+    "friction". Default: pressure, shear, slip, zone.
     """
 
 
@@ -644,6 +664,10 @@ class Friction(TypedDict):
     Shear strength of the interface [pressure], zero or positive, a number or one for every cell: shear is at most the smaller of it
     and the coefficient times the pressure. Default: none.
     """
+    moves_with: NotRequired[Side]
+    """
+    The body that a map belongs to, with which it moves where `kinematics.displacement = "finite"`. Default: "lower".
+    """
 
 
 class Gradient(TypedDict):
@@ -709,7 +733,7 @@ class Heights(TypedDict):
     """
     file: NotRequired[str]
     """
-    A .npy file, or a text file with one row of numbers per line. Relative paths start at the case file.
+    A .npy file, or a text file with one row of numbers per line or one point x, y, height. Relative paths start at the case file.
     """
     of: NotRequired[Of]
     """
@@ -725,7 +749,7 @@ class Heights(TypedDict):
     """
     values: NotRequired[Array]
     """
-    The heights themselves, as rows of numbers; from Python an array.
+    The heights themselves, as rows of numbers, or in a line contact numbers; from Python an array.
     """
 
 
@@ -1061,6 +1085,10 @@ class Case(TypedDict):
     grid: Grid
     """
     The mesh of the potential contact area.
+    """
+    kinematics: NotRequired[Kinematics]
+    """
+    How the surfaces move against each other. Default: by displacements that are small against the contact.
     """
     load: Sequence[Stage]
     """

@@ -50,11 +50,9 @@ pub(super) fn state_after(
             stick_cells += 1;
             (Zone::Stick, [0.0; 2])
         };
-        let slip = if problem.travels {
-            slip
-        } else {
-            problem.path.counted(cell, slip, before.zone[at] == Zone::Open)
-        };
+        // A contact that travels counts all of an increment's slip, see [`left_behind`].
+        let is_entered = before.zone[at] == Zone::Open && !problem.travels;
+        let slip = problem.path.counted(cell, slip, is_entered);
         state.zone[at] = zone;
         for axis in 0..2 {
             state.slip[axis][at] += slip[axis];
