@@ -36,6 +36,7 @@ mod line_extremes;
 mod loadings;
 mod loads_of_cycles;
 mod misleading;
+mod moving_surfaces;
 mod mutilated_cases;
 mod normal_counts;
 mod periodic;

@@ -180,6 +180,37 @@ fn with_layers_that_wear_thinner() {
     assert!(whole.cycles.iter().all(|cycle| cycle.compliance_spread.is_some()));
 }
 
+/// Surfaces that move with their bodies, by shifts and where a force pushes them; both wear, through a coating that becomes thinner, under
+/// friction that evolves.
+#[test]
+fn with_surfaces_that_move() {
+    let head = coated()
+        .replace("rigid = true", "rigid = true\nwear_coefficient = 5e-14")
+        .replace(
+            "thickness = 20e-6, young = 400e9, poisson = 0.25",
+            "thickness = 5e-10, young = 400e9, poisson = 0.25, wear_coefficient = 1e-13",
+        )
+        .replace(
+            "substrate = { young = 210e9, poisson = 0.3 }",
+            "substrate = { young = 210e9, poisson = 0.3, wear_coefficient = 2e-13 }",
+        )
+        .replace(
+            "coefficient = 0.2\n",
+            "coefficient = 0.2\nevolution = { by = \"energy\", last = 0.6, scale = 500.0, every = 3, tolerance = 0.2 }\n",
+        )
+        .replace("[friction]", "[kinematics]\ndisplacement = \"finite\"\n[friction]");
+    let loads = WORN
+        .replace("coefficient = 2e-11\nevery = 4", "tolerance = 0.3\nthinning_tolerance = 0.1")
+        .replace("[60e-9, 0.0]", "[15e-6, 5e-6]")
+        .replace("[30e-9, 20e-9]", "[5e-6, 2e-6]")
+        .replace("[wear]", "[[load]]\ntangential_force = [0.02, 0.0]\nincrements = 2\n[wear]");
+    let whole = resumed_anywhere(&(head + &loads));
+    let worn = whole.worn_by_layer.as_ref().unwrap();
+    assert!(worn.lower.iter().chain(&worn.upper).all(|volume| *volume > 0.0), "{worn:?}");
+    let kept = whole.fields.last().unwrap().own_worn_depth.as_ref().unwrap();
+    assert_eq!(Some(&kept[1]), whole.state.upper_worn_depth.as_ref());
+}
+
 /// Friction that follows the energy of each cell in cycle jumps, with wear and without.
 #[test]
 fn with_friction_that_evolves() {

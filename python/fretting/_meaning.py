@@ -7,7 +7,19 @@ from typing import Any, Literal, get_args
 
 from fretting import _core
 
-FieldName = Literal["pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone", "worn_depth", "friction"]
+FieldName = Literal[
+    "pressure",
+    "shear_x",
+    "shear_y",
+    "slip_x",
+    "slip_y",
+    "gap",
+    "zone",
+    "worn_depth",
+    "lower_worn_depth",
+    "upper_worn_depth",
+    "friction",
+]
 FIELD_NAMES: tuple[str, ...] = get_args(FieldName)
 VectorName = Literal["shear", "slip"]
 VECTORS: tuple[str, ...] = get_args(VectorName)

@@ -118,6 +118,12 @@ What is subtracted from heights.
 """
 
 
+Displacement: TypeAlias = Literal["small", "finite"]
+"""
+How far the surfaces are taken to move.
+"""
+
+
 Driver: TypeAlias = Literal["energy", "slip_distance", "cycles"]
 """
 What the friction coefficient follows.
@@ -202,6 +208,19 @@ How slip is integrated over an increment.
 NamedInterface: TypeAlias = Literal["bonded", "frictionless"]
 
 
+class Kinematics(TypedDict):
+    """
+    How the surfaces move against each other.
+    """
+
+    displacement: NotRequired[Displacement]
+    """
+    "small": opposite points of the surfaces stay opposite, for a shift that is small against the contact; "finite": profile,
+    topography and wear of the upper body move with it by its shift, and each body wears in its own frame, the lower one in that of the
+    grid. A table [profile] is then the upper body's. Default: "small".
+    """
+
+
 Law: TypeAlias = Literal["exponential", "linear"]
 """
 How Young's modulus runs over the depth.
@@ -251,7 +270,8 @@ class Output(TypedDict):
     """
     fields: NotRequired[Sequence[str]]
     """
-    Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`", "friction". Default: pressure, shear, slip, zone.
+    Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`" (of bodies that move against each other also of each),
+    "friction". Default: pressure, shear, slip, zone.
     """
 
 
@@ -652,6 +672,10 @@ class Friction(TypedDict):
     """
     Shear strength of the interface [pressure], zero or positive, a number or one for every cell: shear is at most the smaller of it
     and the coefficient times the pressure. Default: none.
+    """
+    moves_with: NotRequired[Side]
+    """
+    The body that a map belongs to, with which it moves where `kinematics.displacement = "finite"`. Default: "lower".
     """
 
 
@@ -1104,6 +1128,10 @@ class Case(TypedDict):
     grid: Grid
     """
     The mesh of the potential contact area.
+    """
+    kinematics: NotRequired[Kinematics]
+    """
+    How the surfaces move against each other. Default: by displacements that are small against the contact.
     """
     load: Sequence[Stage]
     """

@@ -119,7 +119,7 @@ impl FieldStore {
 
     /// The arrays that hold fields.
     fn filled(&self) -> impl Iterator<Item = &'static Field> + '_ {
-        self.arrays.iter().copied().filter(|array| array.name != "worn_depth" || self.wears)
+        self.arrays.iter().copied().filter(|array| array.asked_as != "worn_depth" || self.wears)
     }
 
     /// Steps whose fields have been kept.
@@ -131,7 +131,10 @@ impl FieldStore {
     fn of(path: &Path, plan: &Plan, grown: Vec<usize>) -> Self {
         let asked = |array: &&Field| plan.case.output.fields.iter().any(|name| name == array.asked_as);
         let grows = plan.case.is_open_ended();
-        let arrays: Vec<_> = FIELDS.iter().filter(asked).collect();
+        let moves = plan.case.kinematics.is_finite();
+        let is_there =
+            |array: &&Field| moves || array.asked_as == array.name || array.asked_as != "worn_depth";
+        let arrays: Vec<_> = FIELDS.iter().filter(asked).filter(is_there).collect();
         // A store that an earlier version has begun goes on without checksums: its first chunk tells.
         let first = arrays.first().map(|array| (path.join(chunk(&plan.grid, array.name, 0)), array.name));
         let is_plain = first.is_some_and(|(file, name)| {

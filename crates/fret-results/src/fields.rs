@@ -58,7 +58,10 @@ impl Fields {
             name != "worn_depth" || case.wear.is_some() || path.join(name).join("c").exists() // of the wear that it started from
         };
         let is_asked = |field: &&history::Field| {
-            case.output.fields.iter().any(|name| name == field.asked_as) && is_filled(field.name)
+            let moves = case.kinematics.is_finite();
+            let is_own = field.asked_as == "worn_depth" && field.name != "worn_depth";
+            let is_asked = case.output.fields.iter().any(|name| name == field.asked_as);
+            is_asked && is_filled(field.asked_as) && (moves || !is_own)
         };
         let names: Vec<&'static str> = FIELDS.iter().filter(is_asked).map(|field| field.name).collect();
         let [nx, ny] = grid.cells();

@@ -12,6 +12,7 @@ use super::file::{CaseFile, CellsFile, OutputFile, SizeFile};
 use super::friction::{friction, of_stages};
 use super::interface::sliding_coatings;
 use super::judge::Judge;
+use super::kinematics::{Concerned, kinematics};
 use super::line::{datum, line, motion_without_datum};
 use super::output::{FIELD_NAMES, Output};
 use super::repeating::repeats;
@@ -24,8 +25,8 @@ use super::substrates::bulk_and_tilt;
 use super::units::Units;
 use super::wearing::wear;
 use crate::document::{At, Mistake, Places};
-use crate::model::CoulombFriction;
 use crate::model::stage::Stage;
+use crate::model::{CoulombFriction, Displacement};
 
 /// Cells along one side of the grid, at the least.
 pub const FEWEST_CELLS: usize = 4;
@@ -93,7 +94,8 @@ pub(super) fn case(
         let limit = (tolerance.unwrap_or(TOLERANCE), way_to_slide(periodic, bodies.as_ref()));
         sliding(&mut judge, friction, &file.load, stages, limit);
     }
-    let wears = (file.wear.as_ref(), file.stress.as_ref());
+    let kinematics = kinematics(&mut judge, &Concerned { file: &file, loading });
+    let wears = (file.wear.as_ref(), file.stress.as_ref(), kinematics);
     let wear = wear(&mut judge, wears, (bodies.as_ref(), files), stages.as_deref(), frictionless);
     let output = output(&mut judge, file.output.as_ref());
     let stress = stress(&mut judge, file.stress.as_ref(), bodies.as_ref(), output.as_ref(), frictionless);
@@ -115,6 +117,7 @@ pub(super) fn case(
             bodies: bodies?,
             profile: profile?,
             friction: friction?,
+            kinematics,
             stages: stages?,
             tolerance: tolerance?,
             output: output?,
@@ -143,8 +146,10 @@ pub(super) fn case(
 /// What the whole case is judged with: its units, and whether it is a line contact.
 fn judge_of<'a>(file: &CaseFile, attachments: Attachments<'a>, places: &'a Places) -> Judge<'a> {
     let is_line = matches!(&file.grid.cells.value, CellsFile::Line(_));
-    let mut judge =
-        Judge { mistakes: Vec::new(), attachments, places, force_unit: String::new(), units: None, is_line };
+    let displacement = file.kinematics.as_ref().and_then(|given| given.value.displacement.as_ref());
+    let moves = displacement.is_some_and(|given| given.value == Displacement::Finite);
+    let (mistakes, force_unit) = (Vec::new(), String::new());
+    let mut judge = Judge { mistakes, attachments, places, force_unit, units: None, is_line, moves };
     judge.units = file.units.as_ref().and_then(|file| declared_units(&mut judge, file));
     judge.force_unit = Units::after(judge.units.as_ref(), "force", is_line);
     judge

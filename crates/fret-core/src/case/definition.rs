@@ -11,7 +11,7 @@ use crate::kernel::uniform_response;
 use crate::model::stage::Stage;
 use crate::model::{
     Beyond, CellMap, Conduction, ContactPair, CoulombFriction, FrictionEvolution, Heights, HeightsSummary,
-    Integration, LoadStep, MapSummary, Profile, ResidualStress, Rig, Scheme, WearRule,
+    Integration, Kinematics, LoadStep, MapSummary, Profile, ResidualStress, Rig, Scheme, WearRule,
 };
 use crate::subsurface::fatigue::LayerConstants;
 
@@ -48,6 +48,9 @@ pub struct Case<M = CellMap, H = Heights> {
     pub conduction: Conduction,
     /// Undeformed gap.
     pub profile: Profile<H>,
+    /// How the surfaces move against each other.
+    #[serde(default, skip_serializing_if = "Kinematics::is_default")]
+    pub kinematics: Kinematics,
     /// Friction law at the start; stages may change it.
     pub friction: CoulombFriction<M>,
     /// How the friction coefficient evolves, where it does.

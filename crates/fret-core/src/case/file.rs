@@ -8,7 +8,7 @@ use super::side::Side;
 use super::stage_file::{AutoWord, StageFile, WearFile};
 use super::surface_file::{FrictionFile, LENGTH, ProfileFile};
 use crate::document::{At, Range, Table};
-use crate::model::{Beyond, Integration, Scheme};
+use crate::model::{Beyond, Displacement, Integration, Scheme};
 
 /// A fretting contact: bodies, first gap, friction, and a loading history. Any consistent system of units.
 #[derive(Table, JsonSchema)]
@@ -29,6 +29,8 @@ pub(super) struct CaseFile {
     pub profile: Option<At<ProfileFile>>,
     /// Dry friction. Default: frictionless.
     pub friction: Option<FrictionFile>,
+    /// How the surfaces move against each other. Default: by displacements that are small against the contact.
+    pub kinematics: Option<At<KinematicsFile>>,
     /// The machine between the upper body and what is driven. Default: rigid.
     pub rig: Option<RigFile>,
     /// Stages of the loading history, in order.
@@ -43,6 +45,16 @@ pub(super) struct CaseFile {
     pub stress: Option<At<StressFile>>,
     /// Temperature rise of the surfaces by friction, evaluated from the kept fields after the run.
     pub thermal: Option<At<ThermalFile>>,
+}
+
+/// How the surfaces move against each other.
+#[derive(Table, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct KinematicsFile {
+    /// "small": opposite points of the surfaces stay opposite, for a shift that is small against the contact; "finite": profile,
+    /// topography and wear of the upper body move with it by its shift, and each body wears in its own frame, the lower one in that of the
+    /// grid. A table [profile] is then the upper body's. Default: "small".
+    pub displacement: Option<At<Displacement>>,
 }
 
 /// Stiffness whose inverse is a number, too.
@@ -151,7 +163,8 @@ pub(super) struct SolverFile {
 #[derive(Table, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub(super) struct OutputFile {
-    /// Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`", "friction". Default: pressure, shear, slip, zone.
+    /// Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`" (of bodies that move against each other also of each),
+    /// "friction". Default: pressure, shear, slip, zone.
     pub fields: Option<Vec<At<String>>>,
     /// Keep fields of every n-th increment, and of the last of each stage. Default: only of the last of each stage.
     #[range(Range::COUNT.help("every = 1 keeps all increments"))]

@@ -19,6 +19,8 @@ pub(super) struct Judge<'a> {
     pub(super) units: Option<Units>,
     /// Whether loads are those of a unit of length.
     pub(super) is_line: bool,
+    /// Whether the surfaces move with their bodies.
+    pub(super) moves: bool,
 }
 
 impl Judge<'_> {

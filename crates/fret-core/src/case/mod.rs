@@ -20,6 +20,7 @@ mod heading;
 mod holes;
 mod interface;
 mod judge;
+mod kinematics;
 mod known_units;
 mod line;
 mod misfits;

@@ -29,6 +29,9 @@ pub(super) fn profile(judge: &mut Judge, file: &CaseFile, cells: Option<Cells>) 
             let before = sum.shapes.len();
             Part { judge, place, cells, before, sum: &mut sum }.judge(given);
         }
+        if place == "upper.profile" {
+            sum.of_upper = [sum.shapes.len(), sum.heights.len()];
+        }
     }
     let are_whole = places.iter().all(|(place, _)| judge.places.are_whole_in(place));
     if judge.mistakes.len() > before || cells.is_none() || !are_whole {

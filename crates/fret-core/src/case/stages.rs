@@ -243,7 +243,9 @@ fn stage(
     let Here { judge, place, .. } = here;
     let starts_free = index == 0 && judge.attachments.start.is_none();
     let says_nothing = stage.controls().next().is_none() && file.friction.is_none();
-    if frictionless && stage.is_tangential_beyond_rest() {
+    // Without friction a shift moves nothing but surfaces that move with their bodies.
+    let by_motion = judge.moves && stage.tangential.iter().flatten().all(StageControl::is_motion);
+    if frictionless && !by_motion && stage.is_tangential_beyond_rest() {
         let span = file.controls.place(TANGENTIAL..TWIST + 1).or(file.table.as_ref().map(At::span));
         judge.refuse::<()>(
             span.unwrap_or(given.span()),

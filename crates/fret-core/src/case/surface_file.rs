@@ -5,6 +5,7 @@ use std::borrow::Cow;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
+use super::side::Side;
 use super::topography::keys::TreatmentFile;
 use crate::document::{At, Range, Table};
 use crate::model::{Axis, Detrend, EvolutionDriver};
@@ -161,6 +162,8 @@ pub(super) struct FrictionFile {
     /// Shear strength of the interface [pressure], zero or positive, a number or one for every cell: shear is at most the smaller of it
     /// and the coefficient times the pressure. Default: none.
     pub max_shear: Option<At<CoefficientFile>>,
+    /// The body that a map belongs to, with which it moves where `kinematics.displacement = "finite"`. Default: "lower".
+    pub moves_with: Option<At<Side>>,
     /// Friction that evolves: how the coefficient of each cell follows what slip has done to it. Default: it stays.
     pub evolution: Option<At<EvolutionFile>>,
 }

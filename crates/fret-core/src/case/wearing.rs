@@ -7,7 +7,7 @@ use super::parts::{Constant, NamedBody};
 use super::stage_file::{WearFile, WornBodyFile};
 use crate::document::At;
 use crate::model::stage::Stage;
-use crate::model::{Body, ContactPair, WearLaw, WearLayers, WearRule, WornLayer};
+use crate::model::{Body, ContactPair, Kinematics, OwnDepths, WearLaw, WearLayers, WearRule, WornLayer};
 
 /// Cycles a computed one may stand for.
 pub(super) const MOST_EVERY: usize = 1_000_000;
@@ -15,7 +15,7 @@ pub(super) const MOST_EVERY: usize = 1_000_000;
 /// The wear of a case; `None` when nothing wears or it was refused.
 pub(super) fn wear(
     judge: &mut Judge,
-    (given, stress): (Option<&At<WearFile>>, Option<&At<StressFile>>),
+    (given, stress, kinematics): (Option<&At<WearFile>>, Option<&At<StressFile>>, Kinematics),
     (bodies, files): (Option<&ContactPair>, [NamedBody<'_>; 2]),
     stages: Option<&[Stage]>,
     frictionless: bool,
@@ -77,6 +77,7 @@ pub(super) fn wear(
     changing_cycles(judge, jumping, ("wear", "that wears"), every, stages.unwrap_or_default());
     let layers = own.is_some().then(|| WearLayers::new(layers.map(Option::unwrap_or_default)));
     let limit = limit(judge, file, (bodies, files), layers.as_ref());
+    let own = kinematics.is_finite().then(|| [0, 1].map(|body| own_depths(body, file, files, limit)));
     // where the bodies were refused, a thickness may be no number
     let coating = bodies.and_then(|_| coating_gone(files, layers.as_ref()));
     (judge.mistakes.len() == before).then_some(WearRule {
@@ -89,6 +90,7 @@ pub(super) fn wear(
         coating,
         tolerance: file.tolerance,
         thinning_tolerance: thinning,
+        own,
     })
 }
 
@@ -133,6 +135,21 @@ fn limit(
                 ),
             }
         }
+    }
+}
+
+/// The depths of one body alone that a run looks for; `limit`: where the case has one, of both bodies together.
+fn own_depths(body: usize, file: &WearFile, files: [NamedBody<'_>; 2], limit: Option<f64>) -> OwnDepths {
+    let written = files[body].1.coatings.as_ref().and_then(|list| list.value.first());
+    let coating = written.map(|written| written.thickness.value);
+    let named = match file.through_coating_of.as_ref().map(|which| which.value) {
+        Some(WornBodyFile::Lower) => Some(0),
+        Some(WornBodyFile::Upper) => Some(1),
+        None => None,
+    };
+    OwnDepths {
+        limit: if named.is_some() { coating.filter(|_| named == Some(body)) } else { limit },
+        coating,
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod arithmetic;
 mod each_cell;
+mod moved;
 mod portions;
 mod registers;
 mod room;
@@ -11,6 +12,7 @@ mod zeros;
 
 pub use arithmetic::{add_scaled, dot, largest, lower, norm, scale, sum};
 pub use each_cell::{CellRule, CellSize, convert, each_cell, largest_of};
+pub use moved::{Outside, carried, leaves};
 pub use portions::{in_portions, pieces};
 pub use registers::{Number, Reals};
 pub use room::reset;

@@ -90,6 +90,20 @@ pub static FIELDS: &[Field] = &[
         values: |kept| kept.worn_depth.as_ref().map(Reals),
     },
     Field {
+        name: "lower_worn_depth",
+        asked_as: "worn_depth",
+        meaning: "wear depth of the lower body, where bodies move against each other",
+        unit: "length",
+        values: |kept| kept.own_worn_depth.as_ref().map(|[lower, _]| Reals(lower)),
+    },
+    Field {
+        name: "upper_worn_depth",
+        asked_as: "worn_depth",
+        meaning: "wear depth of the upper body in its own frame, where bodies move against each other",
+        unit: "length",
+        values: |kept| kept.own_worn_depth.as_ref().map(|[_, upper]| Reals(upper)),
+    },
+    Field {
         name: "friction",
         asked_as: "friction",
         meaning: "coefficient of friction",

@@ -102,8 +102,10 @@ pub struct KeptFields {
     pub gap: Option<Array2<f64>>,
     /// Zone of each cell.
     pub zone: Option<Array2<Zone>>,
-    /// Worn depth [length].
+    /// Worn depth, of both bodies together [length].
     pub worn_depth: Option<Array2<f64>>,
+    /// That of the lower and of the upper body, each in its own frame, where they move against each other [length].
+    pub own_worn_depth: Option<[Array2<f64>; 2]>,
     /// Coefficient of friction in force [-].
     pub friction: Option<Array2<f64>>,
     /// What another history needs besides these fields to start here; of every last increment of a stage, and where the fields
@@ -214,5 +216,11 @@ impl WornByLayer {
         }
         lower.iter_mut().chain(&mut upper).for_each(|volume| *volume *= cell_area);
         Self { lower, upper }
+    }
+
+    /// By layers, from the depths off the lower and the upper body [length], each in its own frame.
+    pub fn of_bodies(layers: &WearLayers, depths: [&Array2<f64>; 2], cell_area: f64) -> Self {
+        let [lower, upper] = [0, 1].map(|body| Self::new(&layers.of_body(body), depths[body], cell_area));
+        Self { lower: lower.lower, upper: upper.upper }
     }
 }

@@ -97,7 +97,10 @@ impl Start {
 
     /// Where a plan, which is given as JSON, has another setting than the state.
     pub(crate) fn differences(&self, plan: &Value) -> Vec<Difference> {
-        let own = serde_json::from_str(&self.setting).unwrap_or_default();
+        let mut own: Value = serde_json::from_str(&self.setting).unwrap_or_default();
+        if own.is_object() && own["kinematics"].is_null() {
+            own["kinematics"] = json!({ "displacement": "small" }); // of a version that knew no other
+        }
         let mut found = Vec::new();
         differences("", &setting(plan), &own, &mut found);
         found
@@ -121,12 +124,19 @@ pub(crate) fn setting(plan: &Value) -> Value {
         "upper": case["bodies"]["upper"],
         "lower": case["bodies"]["lower"],
         "profile": case["profile"],
+        "kinematics": { "displacement": displacement(case) },
     });
     // approach and shift of a line contact are relative to it
     if !plan["datum"].is_null() {
         setting["grid"]["datum"] = plan["datum"].clone();
     }
     setting
+}
+
+/// How far the surfaces of a case are taken to move; one that does not say is one of small displacements.
+fn displacement(case: &Value) -> Value {
+    let given = &case["kinematics"]["displacement"];
+    if given.is_null() { Value::from("small") } else { given.clone() }
 }
 
 /// What a solver's memory belongs to besides.

@@ -226,7 +226,9 @@ impl Concern {
             | Self::ApproachOverLayerThickness => {
                 "check the units of moduli, lengths and loads; or reduce the load"
             }
-            Self::ShiftOverContactRadius => "check the unit of the shift; or reduce it",
+            Self::ShiftOverContactRadius => {
+                "[kinematics] displacement = \"finite\" moves the surfaces; or check the unit of the shift"
+            }
             Self::SteepTopography => "check the unit of the heights and the size of the grid",
             Self::CoatingThinnerThanCell => "more cells or a smaller grid, where such stresses matter",
             Self::WearDepthOverCoatingThickness => "wear.limit = ... ends the run sooner",

@@ -37,6 +37,7 @@ impl Symmetry {
             slip: [0, 1].map(|axis| self.part(&whole.slip[axis])),
             zone: self.part(&whole.zone),
             worn_depth: whole.worn_depth.as_ref().map(|depth| self.part(depth)),
+            upper_worn_depth: whole.upper_worn_depth.as_ref().map(|depth| self.part(depth)),
             accumulated: whole.accumulated.as_ref().map(|slip| slip.with_fields(|field| self.part(field))),
             ..*whole
         }
@@ -71,6 +72,7 @@ fn made_whole(part: &ContactState, symmetry: Symmetry) -> ContactState {
         slip: tangential(&part.slip),
         zone: symmetry.whole_zones(&part.zone),
         worn_depth: part.worn_depth.as_ref().map(even),
+        upper_worn_depth: part.upper_worn_depth.as_ref().map(even),
         accumulated: part.accumulated.as_ref().map(|slip| slip.with_fields(even)),
         ..*part
     }
@@ -98,6 +100,7 @@ mod tests {
                 slip: [field(400.0), field(500.0)],
                 zone: Array2::from_shape_fn(cells, |(i, j)| if i < j { Zone::Slip } else { Zone::Stick }),
                 worn_depth: Some(field(600.0)),
+                upper_worn_depth: Some(field(650.0)),
                 accumulated: Some(AccumulatedSlip { distance: field(700.0), ..AccumulatedSlip::none(cells) }),
                 dissipated_energy: 8.0,
                 bulk_work: -3.0,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::grid::SurfaceGrid;
 use super::heights::Heights;
 use super::shape::Shape;
-use crate::fields::in_portions;
+use crate::fields::{Outside, carried, in_portions};
 
 /// Gap where one of the bodies has ended, in diagonals of the grid: finite, so that sums stay numbers, and out of reach.
 pub const BEYOND_THE_BODY: f64 = 1e6;
@@ -22,11 +22,14 @@ pub struct Profile<H = Heights> {
     /// Surfaces by heights.
     #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
     pub heights: Vec<H>,
+    /// How many of the shapes and of the heights, the first ones, are the upper body's; those of the gap are, too.
+    #[serde(skip)]
+    pub of_upper: [usize; 2],
 }
 
 impl Default for Profile {
     fn default() -> Self {
-        Self { shapes: Vec::new(), heights: Vec::new() }
+        Self { shapes: Vec::new(), heights: Vec::new(), of_upper: [0; 2] }
     }
 }
 
@@ -40,7 +43,7 @@ impl<H> Profile<H> {
 
 impl From<Shape> for Profile {
     fn from(shape: Shape) -> Self {
-        Self { shapes: vec![shape], heights: Vec::new() }
+        Self { shapes: vec![shape], heights: Vec::new(), of_upper: [1, 0] }
     }
 }
 
@@ -80,11 +83,135 @@ impl Profile {
         gap
     }
 
+    /// The undeformed gap where the upper body lies `cells` further along each axis, counted from where it touches first without that: its
+    /// shapes are taken at their places, its heights carried (see [`carried`]). Where nothing is known of them the gap is that without a
+    /// body. `repeats`: the surfaces do.
+    pub fn gap_with_upper_at(&self, grid: &SurfaceGrid, cells: [f64; 2], repeats: bool) -> Array2<f64> {
+        if cells == [0.0; 2] {
+            return self.gap(grid);
+        }
+        let mut gap = Array2::zeros(grid.cells());
+        let [width, depth] = grid.size();
+        let beyond = BEYOND_THE_BODY * width.hypot(depth);
+        let has_heights = self.heights.iter().any(|heights| heights.cells() == grid.cells());
+        let first = if has_heights { self.first_touch(grid) } else { 0.0 };
+        let [of_upper, heights_of_upper] = self.of_upper;
+        let [x, y] = [0, 1].map(|axis| places(grid, axis, cells[axis], repeats));
+        let values = gap.as_slice_mut().unwrap_or_default();
+        in_portions((grid.len(), NUMBERS), [values], &|portion, [gap]| {
+            for (gap, cell) in gap.iter_mut().zip(portion) {
+                let (i, j) = (cell / grid.cells()[1], cell % grid.cells()[1]);
+                let (upper, lower) = self.shapes.split_at(of_upper.min(self.shapes.len()));
+                let upper = upper.iter().map(|shape| shape.gap_at(x[i].at, y[j].at));
+                let lower = lower.iter().map(|shape| shape.gap_at(grid.centre(0, i), grid.centre(1, j)));
+                *gap = upper.chain(lower).sum();
+            }
+        });
+        let outside = if repeats { Outside::Repeats } else { Outside::Edge };
+        for (number, heights) in self.heights.iter().enumerate() {
+            if heights.cells() != grid.cells() {
+                continue;
+            }
+            if number >= heights_of_upper {
+                gap += heights.depths();
+                continue;
+            }
+            gap += &carried(heights.depths(), cells, outside);
+            for ((i, j), gap) in gap.indexed_iter_mut() {
+                if !(x[i].is_known && y[j].is_known) {
+                    *gap = f64::INFINITY;
+                }
+            }
+        }
+        if has_heights && first.is_finite() {
+            gap -= first;
+        }
+        gap.mapv_inplace(|gap| gap.min(beyond));
+        gap
+    }
+
+    /// Lowest sum of shapes and heights of a cell [length].
+    fn first_touch(&self, grid: &SurfaceGrid) -> f64 {
+        let mut sum = Array2::from_shape_fn(grid.cells(), |(i, j)| {
+            self.gap_of_shapes_at(grid.centre(0, i), grid.centre(1, j))
+        });
+        for heights in self.heights.iter().filter(|heights| heights.cells() == grid.cells()) {
+            sum += heights.depths();
+        }
+        sum.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
     /// Whether the gap is the same everywhere along an axis (0: x, 1: y).
     pub fn is_straight_along(&self, axis: usize) -> bool {
         let balanced = self.curvatures()[axis] == 0.0;
         let straight =
             |shape: &Shape| shape.is_straight_along(axis) || (balanced && shape.curvatures().is_some());
         self.heights.is_empty() && self.shapes.iter().all(straight)
+    }
+}
+
+/// A cell centre as the upper body sees it.
+struct Place {
+    /// Its coordinate [length].
+    at: f64,
+    /// Whether the cells of the upper body that lie over the cell are on the grid, where it lies without a shift.
+    is_known: bool,
+}
+
+/// The cell centres along an axis as an upper body sees them that lies `cells` further.
+fn places(grid: &SurfaceGrid, axis: usize, cells: f64, repeats: bool) -> Vec<Place> {
+    let count = grid.cells()[axis] as f64;
+    let middle = (count - 1.0) / 2.0;
+    let place = |index: usize| {
+        let seen = index as f64 - cells;
+        let is_known = repeats || cells == 0.0 || seen.floor() >= 0.0 && seen.ceil() <= count - 1.0;
+        let seen = if repeats { (seen + 0.5).rem_euclid(count) - 0.5 } else { seen };
+        Place { at: (seen - middle) * grid.spacing()[axis], is_known }
+    };
+    (0..grid.cells()[axis]).map(place).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Detrend;
+
+    /// Moved by whole cells the gap is that of its own cells further on, to the bit; that of the lower body stays.
+    #[test]
+    fn the_upper_profile_moves_and_the_lower_one_stays() {
+        let grid = SurfaceGrid::new([9, 7], [0.1, 0.2]).unwrap();
+        let heights = |seed: usize| {
+            let rough = Array2::from_shape_fn((9, 7), |(i, j)| ((i * 7 + j * 3 + seed) % 11) as f64 / 97.0);
+            Heights::new("rough", rough, Detrend::None).unwrap()
+        };
+        let [ball, bed] = [Shape::Sphere { radius: 2.0 }, Shape::Sphere { radius: -5.0 }];
+        let profile =
+            Profile { shapes: vec![ball, bed], heights: vec![heights(1), heights(5)], of_upper: [1, 1] };
+        assert_eq!(profile.gap_with_upper_at(&grid, [0.0; 2], false), profile.gap(&grid));
+        let of = |shape: Shape, heights: Heights| Profile {
+            shapes: vec![shape],
+            heights: vec![heights],
+            of_upper: [1, 1],
+        };
+        let upper = of(ball, heights(1));
+        let moved = upper.gap_with_upper_at(&grid, [2.0, -1.0], false);
+        let still = upper.gap(&grid);
+        for ((i, j), gap) in moved.indexed_iter() {
+            match i.checked_sub(2).and_then(|i| still.get((i, j + 1))) {
+                Some(there) => assert_eq!(gap, there),
+                None => assert!(*gap > 1e5),
+            }
+        }
+        // the sum of both, less the first touch of it without a shift
+        let lower = Profile { of_upper: [0, 0], ..of(bed, heights(5)) };
+        let both = profile.gap_with_upper_at(&grid, [2.0, -1.0], false);
+        let [one, other] =
+            [&upper, &lower].map(|profile| profile.gap_with_upper_at(&grid, [2.0, -1.0], false));
+        let less = one[[4, 3]] + other[[4, 3]] - both[[4, 3]];
+        for ((i, j), gap) in both.indexed_iter().filter(|(_, gap)| **gap < 1e3) {
+            assert!((one[[i, j]] + other[[i, j]] - less - gap).abs() < 1e-14);
+        }
+        // Repeated, nothing is unknown.
+        assert!(profile.gap_with_upper_at(&grid, [2.3, -1.0], true).iter().all(|gap| *gap < 10.0));
     }
 }

@@ -49,9 +49,13 @@ pub struct ContactState {
     /// What each cell did in the last increment.
     #[serde(with = "stored")]
     pub zone: Array2<Zone>,
-    /// Depth worn off both bodies together [length]; `None` where nothing wears.
+    /// Depth worn off both bodies together [length], of bodies that move against each other off the lower one; `None` where nothing wears.
     #[serde(with = "stored")]
     pub worn_depth: Option<Array2<f64>>,
+    /// Depth worn off the upper body [length] in its own frame, which lay over the grid without a shift; `None` where it does not move against
+    /// the lower one, or nothing wears.
+    #[serde(with = "stored")]
+    pub upper_worn_depth: Option<Array2<f64>>,
     /// What slip has done to each cell since the start; `None` where nothing follows it.
     pub accumulated: Option<AccumulatedSlip>,
     /// Rigid normal approach [length].
@@ -94,6 +98,7 @@ impl ContactState {
             slip: [zero(), zero()],
             zone: Array2::from_elem(cells, Zone::Open),
             worn_depth: None,
+            upper_worn_depth: None,
             accumulated: None,
             approach: 0.0,
             shift: [0.0; 2],
@@ -122,6 +127,7 @@ impl ContactState {
             slip: [copy("slip_x", slip_x), copy("slip_y", slip_y)],
             zone: self.zone.clone(),
             worn_depth: self.worn_depth.clone(),
+            upper_worn_depth: self.upper_worn_depth.clone(),
             accumulated: self.accumulated.clone(),
             ..*self
         }
@@ -156,7 +162,8 @@ impl ContactState {
         let mut numbers = numbers.chain(energies).chain([self.unresolved_energy, self.bulk_work]);
         let field = |field: &Array2<f64>| field.dim() == cells.into() && field.iter().all(|v| v.is_finite());
         let accumulated = self.accumulated.iter().flat_map(AccumulatedSlip::fields);
-        [&self.pressure, qx, qy, sx, sy].into_iter().chain(&self.worn_depth).chain(accumulated).all(field)
+        let worn = self.worn_depth.iter().chain(&self.upper_worn_depth);
+        [&self.pressure, qx, qy, sx, sy].into_iter().chain(worn).chain(accumulated).all(field)
             && self.zone.dim() == cells.into()
             && numbers.all(f64::is_finite)
     }

@@ -19,6 +19,15 @@ pub enum WearLaw {
     Energy,
 }
 
+/// Depths of one body alone, of bodies that move against each other [length].
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct OwnDepths {
+    /// At which the run ends.
+    pub limit: Option<f64>,
+    /// At which its outermost coating is gone.
+    pub coating: Option<f64>,
+}
+
 /// How surfaces wear, and how many cycles a computed one stands for.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WearRule {
@@ -46,9 +55,20 @@ pub struct WearRule {
     /// stays that of the unworn bodies.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thinning_tolerance: Option<f64>,
+    /// Depths of the lower and of the upper body alone, where they move against each other: each wears in its own frame, by its own layers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub own: Option<[OwnDepths; 2]>,
 }
 
 impl WearRule {
+    /// The rule of one body alone (0: lower, 1: upper), of bodies that move against each other.
+    #[must_use]
+    pub fn of_body(&self, body: usize) -> Self {
+        let OwnDepths { limit, coating } = self.own.unwrap_or_default()[body];
+        let layers = self.layers.as_ref().map(|layers| layers.of_body(body));
+        Self { layers, limit, coating, ..self.clone() }
+    }
+
     /// The largest coefficient that can be in force, of both bodies together [1/pressure].
     pub fn largest_rate(&self) -> f64 {
         let of_layers = || self.layers.as_ref().map_or(0.0, WearLayers::largest_rate);

@@ -70,6 +70,14 @@ impl WearLayers {
         [&self.lower, &self.upper]
     }
 
+    /// Those of one body (0: lower, 1: upper); the other one does not wear.
+    #[must_use]
+    pub fn of_body(&self, body: usize) -> Self {
+        let mut layers = [Vec::new(), Vec::new()];
+        layers[body] = self.bodies()[body].to_vec();
+        Self::new(layers)
+    }
+
     /// The largest sum of coefficients that can be at the surfaces [1/pressure].
     pub fn largest_rate(&self) -> f64 {
         let largest = |layers: &[WornLayer]| layers.iter().map(|layer| layer.coefficient).fold(0.0, f64::max);

@@ -4,6 +4,7 @@ use ndarray::Axis;
 
 use serde::{Deserialize, Serialize};
 
+use super::moving::moves_along;
 use super::simplification::{LeaveOut, Simplification};
 use super::symmetry::{is_loaded, is_stretched, is_twisted};
 use crate::case::{Case, Stage};
@@ -113,6 +114,16 @@ pub fn left_out(
             "the fraction of the grid outside the active subdomain, in every iteration",
         );
     }
+    if case.kinematics.is_finite()
+        && !(0..2).any(|axis| moves_along(case, grid, axis, None))
+        && case.start.is_none()
+    {
+        leave(
+            "motion of the surfaces",
+            "the upper body moves by less than a hundredth of a cell",
+            "another gap in every increment",
+        );
+    }
     if single_precision {
         leave(
             "double precision, in linear problems and approximate inverses",
@@ -202,8 +213,10 @@ fn is_endless(case: &Case, grid: &SurfaceGrid, axis: usize) -> bool {
 fn is_the_same_along_a_line(state: &ContactState) -> bool {
     let [shear_x, shear_y] = &state.shear;
     let accumulated = || state.accumulated.iter().flat_map(AccumulatedSlip::fields);
-    let fields =
-        || [&state.pressure, shear_x, shear_y].into_iter().chain(&state.worn_depth).chain(accumulated());
+    let fields = || {
+        let worn = state.worn_depth.iter().chain(&state.upper_worn_depth);
+        [&state.pressure, shear_x, shear_y].into_iter().chain(worn).chain(accumulated())
+    };
     (0..2).any(|axis| {
         fields()
             .all(|field| field.lanes(Axis(axis)).into_iter().all(|line| line.iter().all(|q| *q == line[0])))

@@ -19,6 +19,8 @@ const EVOLVING: usize = 110;
 /// Bytes a cell of a gap that is tilted; with a prescribed moment, of places and turned gaps too.
 const TILTED: usize = 16;
 const BY_MOMENT: usize = 100;
+/// Bytes a cell of surfaces that move: the gap and the wear of each body, and in front of the mirrors the operator of the upper body.
+const MOVING: [usize; 2] = [80, 260];
 /// Bytes a cell of the tractions and slips of an increment whose stresses are looked at.
 const TRACTIONS: usize = 5 * 8;
 /// Bytes a cell of what fatigue and the fracture of a coating collect of an increment: the stress at the depth at work, sums over depths.
@@ -68,9 +70,10 @@ pub fn of_run(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Sym
     let evolving = if case.friction_evolution.is_some() { EVOLVING } else { 0 };
     let frictions = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
     let maps = frictions.filter(|friction| friction.is_map()).count() + case.profile.heights.len();
-    let in_front = in_front + remembered + tilt(case);
+    let [moving, operator] = if case.kinematics.is_finite() { MOVING } else { [0; 2] };
+    let in_front = in_front + remembered + tilt(case) + operator;
     let left_behind = if grid.len() * size_of::<f64>() < GOES_BACK { LEFT_BEHIND } else { 0 };
-    let whole = whole + left_behind + worn + evolving + EACH_CELL * maps;
+    let whole = whole + left_behind + worn + evolving + EACH_CELL * maps + moving;
     let solving = grid.len() * (whole + in_front / symmetry.copies());
     let stressed = case.stress.as_ref().map_or(0, |stress| {
         of_stress(grid.len(), case.kept_increments().len().div_ceil(stress.every.max(1)))
@@ -101,12 +104,13 @@ pub fn of_stress(cells: usize, increments: usize) -> usize {
 pub fn of_kept_fields(case: &Case, grid: &SurfaceGrid) -> usize {
     case.kept_increments().len()
         * grid.len()
-        * case.output.fields.iter().map(|name| bytes_of(name)).sum::<usize>()
+        * case.output.fields.iter().map(|name| bytes_of(name, case)).sum::<usize>()
 }
 
 /// Bytes a cell of a field that can be kept.
-fn bytes_of(name: &str) -> usize {
+fn bytes_of(name: &str, case: &Case) -> usize {
     match name {
+        "worn_depth" if case.kinematics.is_finite() => 24,
         "shear" | "slip" => 16,
         "zone" => 1,
         _ => 8,

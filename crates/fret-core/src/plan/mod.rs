@@ -4,6 +4,7 @@ mod advance;
 mod extent;
 mod left_out;
 mod memory;
+mod moving;
 mod precision;
 mod simplification;
 mod sliding_extent;
@@ -25,6 +26,7 @@ pub use extent::ExpectedContact;
 use extent::{COARSE, Unexpected, automatic_size, expected_contact, reaches_beyond};
 pub use left_out::LeftOut;
 pub use memory::of_stress as memory_of_stress;
+use moving::{moves_along, with_room_to_move};
 pub use simplification::{LeaveOut, Simplification};
 use sliding_extent::with_room_to_slide;
 
@@ -46,6 +48,9 @@ pub struct Plan<C = Case> {
     pub coupling: Coupling,
     /// The one axis (0: x, 1: y) along which shear acts, where the other part vanishes.
     pub along: Option<usize>,
+    /// Whether the gap is that of surfaces that move against each other.
+    #[serde(skip_serializing_if = "is_false")]
+    pub moves: bool,
     /// Mirrors of scene and loads, in front of which the solver works.
     pub symmetry: Symmetry,
     /// Single precision does in linear problems and approximate inverses.
@@ -126,7 +131,9 @@ impl Plan {
                 } else {
                     let contact = expected.map_err(|why| without_size(&case, why))?;
                     let size = automatic_size(&case, &contact);
-                    if coupling == Coupling::Coupled { with_room_to_slide(&case, size) } else { size }
+                    let size =
+                        if coupling == Coupling::Coupled { with_room_to_slide(&case, size) } else { size };
+                    with_room_to_move(&case, size)
                 }
             }
         };
@@ -166,6 +173,9 @@ impl Plan {
         let datum = has_datum.then(|| case.datum.unwrap_or(size[0]));
         let along = left_out::one_way(&case, &grid, &response, coupling, state)
             .filter(|_| leave_out.takes(Simplification::Transverse));
+        // What each body has worn in its own frame is put together like surfaces that move.
+        let moves = case.kinematics.is_finite() && case.wear.is_some()
+            || (0..2).any(|axis| moves_along(&case, &grid, axis, state));
         let symmetry = mirrors(&case, &grid, coupling, state, leave_out);
         let single_precision = leave_out.takes(Simplification::Precision)
             && precision::single_precision_does(&case, &grid, &response, coupling);
@@ -181,6 +191,7 @@ impl Plan {
             datum,
             coupling,
             along,
+            moves,
             symmetry,
             single_precision,
             leave_out,
@@ -248,6 +259,11 @@ fn without_size(case: &Case, why: Unexpected) -> CaseError {
         ),
     };
     case.refuse_size(message, help)
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+fn is_false(value: &bool) -> bool {
+    !*value
 }
 
 fn mirrors(

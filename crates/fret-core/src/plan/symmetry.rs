@@ -1,5 +1,6 @@
 //! Whether a scene and its loads are their own mirror image, so that a half or a quarter of the grid stands for the whole.
 
+use super::moving::moves_along;
 use crate::case::Case;
 use crate::model::{BulkCompliance, ContactState, Control, SurfaceGrid, Symmetry};
 use crate::solver::Coupling;
@@ -12,7 +13,7 @@ const FEWEST_CELLS: usize = 16;
 /// Under a load along x the pressure and the shear along x are even across y, the shear across is odd. Across x the same holds
 /// where pressure and shear do not act on each other: the mirror image is pulled the other way, and all shears changed in sign
 /// answer that. Without a tangential load shear points away from the middle or towards it, also under bulk stresses; these, with a
-/// tangential load, leave no mirror across it. A tilt leaves none along its own axis.
+/// tangential load, leave no mirror across it. Surfaces that move leave none across their way, a tilt none along its own axis.
 pub fn symmetry(
     case: &Case,
     grid: &SurfaceGrid,
@@ -24,9 +25,12 @@ pub fn symmetry(
         return Symmetry::NONE;
     }
     let stretched = (0..2).any(|axis| is_stretched(case, axis, start));
-    let coupled = coupling == Coupling::Coupled || stretched;
+    let moves = [0, 1].map(|axis| moves_along(case, grid, axis, start));
+    let coupled = coupling == Coupling::Coupled || stretched || moves != [false; 2];
     let odd_shear = match (coupling, [is_loaded(case, 0, start), is_loaded(case, 1, start)]) {
-        (Coupling::Frictionless, _) | (_, [false, false]) => [Some(0), Some(1)],
+        (Coupling::Frictionless, _) | (_, [false, false]) => {
+            [(!moves[0]).then_some(0), (!moves[1]).then_some(1)]
+        }
         (_, [true, false]) => [(!coupled).then_some(1), Some(1)],
         (_, [false, true]) => [Some(0), (!coupled).then_some(0)],
         (_, [true, true]) => return Symmetry::NONE,

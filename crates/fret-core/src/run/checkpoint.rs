@@ -10,6 +10,7 @@ use serde_json::Value;
 
 use super::evolving::CollectedSlip;
 use super::fretting_loop::FrettingLoop;
+use super::moving::upper_wear_over_grid;
 use super::thinning::mean_depths;
 use super::wear::Collected;
 use crate::case::{Case, Stage};
@@ -54,6 +55,7 @@ pub struct Waypoint<'a> {
     pub(crate) memory: &'a SolverMemory,
     pub(crate) cycle: Option<&'a FrettingLoop>,
     pub(crate) wear: Option<&'a Collected>,
+    pub(crate) upper_wear: Option<&'a Collected>,
     pub(crate) slip: Option<&'a CollectedSlip>,
 }
 
@@ -65,8 +67,9 @@ pub struct Checkpoint {
     pub(crate) memory: SolverMemory,
     /// The cycle at work.
     pub(crate) cycle: Option<FrettingLoop>,
-    /// What has worn since the gap was opened last.
+    /// What has worn since the gap was opened last; off the upper body alone, where the bodies move against each other.
     pub(crate) wear: Option<Collected>,
+    pub(crate) upper_wear: Option<Collected>,
     /// What slip has done since friction changed last.
     pub(crate) slip: Option<CollectedSlip>,
 }
@@ -127,6 +130,7 @@ impl Waypoint<'_> {
             memory: self.memory.clone(),
             cycle: self.cycle.cloned(),
             wear: self.wear.cloned(),
+            upper_wear: self.upper_wear.cloned(),
             slip: self.slip.cloned(),
         }
     }
@@ -177,20 +181,28 @@ impl Checkpoint {
             worn_out: false,
         };
         let wears = plan.case.wear.is_some();
+        let moves = plan.case.kinematics.is_finite();
         if wears {
             state.worn_depth.get_or_insert_with(|| Array2::zeros(cells));
         }
+        if wears && moves {
+            state.upper_worn_depth.get_or_insert_with(|| Array2::zeros(cells));
+        }
         let wear = plan.case.wear.as_ref().map(|rule| {
             let layers = rule.layers.as_ref().filter(|_| rule.thinning_tolerance.is_some());
-            let thinned = layers.map_or([0.0; 2], |layers| mean_depths(layers, &state));
-            Collected::nothing(cells, rule.layers.clone()).thinned_by(thinned)
+            let over = upper_wear_over_grid(plan, &state);
+            let thinned = layers.map_or([0.0; 2], |layers| mean_depths(layers, &state, over.as_ref()));
+            let rule = if moves { rule.of_body(0) } else { rule.clone() };
+            Collected::nothing(cells, rule.layers).thinned_by(thinned)
         });
+        let upper_wear = plan.case.wear.as_ref().filter(|_| moves);
+        let upper_wear = upper_wear.map(|rule| Collected::nothing(cells, rule.of_body(1).layers));
         let evolves = plan.case.friction_evolution.is_some();
         if evolves {
             state.accumulated.get_or_insert_with(|| AccumulatedSlip::none(cells));
         }
         let slip = evolves.then(|| CollectedSlip::nothing(cells));
-        Self { place, state, memory: memory.unwrap_or_default(), cycle: None, wear, slip }
+        Self { place, state, memory: memory.unwrap_or_default(), cycle: None, wear, upper_wear, slip }
     }
 
     /// The checkpoint in bytes written by [`Waypoint::write`], for a run of `plan`.
@@ -225,13 +237,15 @@ impl Checkpoint {
     /// # Errors
     /// As [`Checkpoint::read`].
     pub fn start_of(bytes: &[u8], plan: &Value) -> Result<Start, CheckpointError> {
-        let Self { place, state, memory, wear, slip, .. } = Self::decoded(bytes)?;
+        let Self { place, state, memory, wear, upper_wear, slip, .. } = Self::decoded(bytes)?;
         let symmetry: Symmetry =
             serde_json::from_value(plan["symmetry"].clone()).map_err(|_| CheckpointError::Foreign)?;
-        let solved = symmetry.whole_solved(solved_state(&place, state, wear.as_ref(), slip.as_ref()));
+        let worn = [wear.as_ref(), upper_wear.as_ref()];
+        let solved = symmetry.whole_solved(solved_state(&place, state, worn, slip.as_ref()));
         // What an unfinished cycle has worn opens the gap, and the solver remembers another one; so it does of thinner layers, whose
         // thickness another history finds for itself.
-        let same_gap = wear.is_none_or(|wear| wear.is_empty() && wear.thinned() == [0.0; 2]);
+        let same_gap = wear.is_none_or(|wear| wear.is_empty() && wear.thinned() == [0.0; 2])
+            && upper_wear.is_none_or(|wear| wear.is_empty());
         Start::new(plan, solved, same_gap.then_some(memory)).ok_or(CheckpointError::Foreign)
     }
 
@@ -241,11 +255,16 @@ impl Checkpoint {
         let evolves = plan.case.friction_evolution.is_some();
         let start = plan.start.as_ref().map(|start| &start.solved.state);
         let starts_worn = start.is_some_and(|state| state.worn_depth.is_some());
+        let starts_worn_above = start.is_some_and(|state| state.upper_worn_depth.is_some());
+        let wears_above = wears && plan.case.kinematics.is_finite();
         let starts_rubbed = start.is_some_and(|state| state.accumulated.is_some());
         self.is_within(&plan.case)
             && self.state.is_sound(cells)
             && self.memory.fits(cells)
             && self.state.worn_depth.is_some() == (wears || starts_worn)
+            && self.state.upper_worn_depth.is_some() == (wears_above || starts_worn_above)
+            && self.upper_wear.is_some() == wears_above
+            && self.upper_wear.as_ref().is_none_or(|wear| wear.fits(cells))
             && self.state.accumulated.is_some() == (evolves || starts_rubbed)
             && self.slip.is_some() == evolves
             && self.slip.as_ref().is_none_or(|slip| slip.fits(cells))
@@ -277,11 +296,14 @@ impl Checkpoint {
 pub(crate) fn solved_state(
     place: &Place,
     mut state: ContactState,
-    wear: Option<&Collected>,
+    [wear, upper_wear]: [Option<&Collected>; 2],
     slip: Option<&CollectedSlip>,
 ) -> SolvedState {
     let Resultants { normal, tangential, moment, tilt_moment } = place.resultants;
     if let (Some(depth), Some(wear)) = (&mut state.worn_depth, wear) {
+        wear.take_off(depth);
+    }
+    if let (Some(depth), Some(wear)) = (&mut state.upper_worn_depth, upper_wear) {
         wear.take_off(depth);
     }
     if let (Some(accumulated), Some(slip)) = (&mut state.accumulated, slip) {

@@ -48,7 +48,8 @@ struct CommonCompliance {
 pub fn beginnings(plan: &Plan) -> Vec<String> {
     let as_json = plan.to_json();
     let case = &as_json["case"];
-    let rest = ["friction", "friction_evolution", "rig", "wear", "start"].map(|name| &case[name]);
+    let rest =
+        ["friction", "friction_evolution", "kinematics", "rig", "wear", "start"].map(|name| &case[name]);
     let start = plan.start.as_ref().map(|start| start.digest().to_owned());
     let all = json!([setting(&as_json), way_of_solving(&as_json), rest, start]).to_string();
     let stages = case["stages"].as_array().map_or(&[][..], Vec::as_slice);

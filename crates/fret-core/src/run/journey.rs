@@ -3,9 +3,12 @@
 use std::borrow::Cow;
 use std::time::Instant;
 
+use ndarray::Array2;
+
 use super::checkpoint::{Place, Waypoint, solved_state};
 use super::evolving::Evolving;
 use super::fretting_loop::{CycleEnd, FrettingLoop, slid};
+use super::moving::{Stepper, upper_wear_over_grid};
 use super::observer::{Iteration, Observer};
 use super::pair_compliance::PairCompliance;
 use super::plausibility::Gauge;
@@ -17,17 +20,17 @@ use super::stepping::StageSteps;
 use super::stiffest_wave::StiffestWave;
 use super::surfaces::{Block, Surfaces};
 use super::thinning::{LayersWorn, bodies_left, due, layers_worn};
-use super::wear::{Wearing, worn};
+use super::wear::worn;
 use crate::case::{Case, Stage};
 use crate::history::{CycleRecord, History, KeptFields, StepRecord, WornThrough, WornTo};
 use crate::model::{ContactState, CoulombFriction, LoadStep, MirroredState, SolvedState};
 use crate::plan::{Coupling, Plan};
-use crate::solver::{ContactSolver, Resultants};
+use crate::solver::Resultants;
 
 /// A run on its way.
 pub(super) struct Journey<'a> {
     pub plan: &'a Plan,
-    pub solver: ContactSolver<'a>,
+    pub solver: Stepper<'a>,
     pub surfaces: Surfaces,
     /// Where it stands, in front of the mirrors.
     pub state: ContactState,
@@ -55,7 +58,7 @@ impl<'a> Journey<'a> {
     fn refinement(&self) -> Option<Refinement> {
         let stage = &self.case().stages[self.place.stage];
         let tolerance = stage.history_tolerance?;
-        let friction = self.solver.friction().largest();
+        let friction = self.solver.solver.friction().largest();
         let shear = self.state.shear.iter().flatten().any(|shear| *shear != 0.0);
         let depends = self.plan.coupling == Coupling::Coupled || stage.is_tangential() || shear;
         (friction > 0.0 && depends).then_some(Refinement {
@@ -80,9 +83,7 @@ impl<'a> Journey<'a> {
     fn ended(self) -> History {
         let Self { plan, solver, surfaces, state, records, gauge, place, .. } = self;
         drop(solver); // room for the whole state
-        let Surfaces { wearing, evolving, .. } = &surfaces;
-        let collected =
-            (wearing.as_ref().map(Wearing::collected), evolving.as_ref().map(Evolving::collected));
+        let collected = (surfaces.worn(), surfaces.evolving.as_ref().map(Evolving::collected));
         Records { warnings: gauge.warnings(plan), ..records }.history(plan, (&place, state), collected)
     }
 
@@ -92,11 +93,12 @@ impl<'a> Journey<'a> {
         if begins {
             self.surfaces.begin_stage();
         }
-        self.solver.set_friction(match &self.surfaces.evolving {
+        let friction = match &self.surfaces.evolving {
             None => self.plan.symmetry.part_of_friction(self.given_friction()),
             Some(evolving) => Cow::Owned(evolving.friction().clone()),
-        });
-        self.surfaces.take_friction(self.solver.friction());
+        };
+        self.solver.set_friction(friction);
+        self.surfaces.take_friction(self.solver.solver.friction());
         let place = &self.place;
         let steps = if begins {
             let reached = (&place.resultants, self.case().springs());
@@ -142,7 +144,15 @@ impl<'a> Journey<'a> {
         {
             let increment = record.increment;
             let out_of_memory = |error| RunError::OutOfMemory { increment, error };
-            kept.worn_depth = Some(whole(depth, [false; 2], self.plan.symmetry).map_err(out_of_memory)?);
+            let whole =
+                |depth: &Array2<f64>| whole(depth, [false; 2], self.plan.symmetry).map_err(out_of_memory);
+            kept.worn_depth = Some(match upper_wear_over_grid(self.plan, &self.state) {
+                None => whole(depth)?,
+                Some(upper) => whole(&(depth + &upper))?,
+            });
+            if let Some(upper) = &self.state.upper_worn_depth {
+                kept.own_worn_depth = Some([whole(depth)?, whole(upper)?]);
+            }
         }
         self.place.solved += 1;
         self.place.solved_of_stage = k;
@@ -171,7 +181,8 @@ impl<'a> Journey<'a> {
             state: &self.state,
             memory: self.solver.memory(),
             cycle: self.cycle.as_ref(),
-            wear: self.surfaces.wearing.as_ref().map(Wearing::collected),
+            wear: self.surfaces.worn()[0],
+            upper_wear: self.surfaces.worn()[1],
             slip: self.surfaces.evolving.as_ref().map(Evolving::collected),
         });
         if heard.is_break() || stored.is_break() {
@@ -187,10 +198,8 @@ impl<'a> Journey<'a> {
         if !ends && !self.state.is_zero_beside(is_kept) {
             return None;
         }
-        let Surfaces { wearing, evolving, .. } = &self.surfaces;
-        let worn = wearing.as_ref().map(Wearing::collected);
-        let slipped = evolving.as_ref().map(Evolving::collected);
-        let rest = solved_state(&self.place, self.state.beside(is_kept), worn, slipped);
+        let slipped = self.surfaces.evolving.as_ref().map(Evolving::collected);
+        let rest = solved_state(&self.place, self.state.beside(is_kept), self.surfaces.worn(), slipped);
         Some(self.plan.symmetry.whole_solved(rest))
     }
 
@@ -243,7 +252,7 @@ impl<'a> Journey<'a> {
             }
         };
         let wall_s = started.elapsed().as_secs_f64();
-        let (friction, symmetry) = (self.solver.friction(), self.plan.symmetry);
+        let (friction, symmetry) = (self.solver.solver.friction(), self.plan.symmetry);
         let record = record(&solved, (case.springs(), friction, symmetry), (increment, stage, parts), wall_s);
         let kept =
             may_keep.then(|| kept(&solved, (friction, symmetry), increment, &case.output.fields)).transpose();
@@ -260,7 +269,7 @@ impl<'a> Journey<'a> {
     /// Changes the surfaces by what slip did to them in the cycle (or the stage without cycles) that ends with `increment`, and reads the
     /// cycle's loop.
     fn cycle_over(&mut self, stage: &Stage, increment: usize) -> Result<Option<CycleRecord>, RunError> {
-        let friction_before = self.cycle.as_ref().map(|_| self.solver.friction().clone());
+        let friction_before = self.cycle.as_ref().map(|_| self.solver.solver.friction().clone());
         let block = self.change_surfaces(stage, increment)?;
         let Block { cycles: stands_for, evolved, .. } = block;
         self.place.cycles += stands_for;
@@ -275,7 +284,7 @@ impl<'a> Journey<'a> {
             layers: self.layers_worn(cycle.contact_area()),
             wear_jump_error: block.wear_jump_error,
         };
-        let friction = friction_before.as_ref().unwrap_or_else(|| self.solver.friction());
+        let friction = friction_before.as_ref().unwrap_or_else(|| self.solver.solver.friction());
         let record = cycle.close(&self.state, friction, end);
         self.gauge.add_cycle(&record);
         cycle.repeat(&mut self.state, stands_for);
@@ -284,22 +293,30 @@ impl<'a> Journey<'a> {
 
     /// What is known of the layers that wear.
     fn layers_worn(&self, contact_area: f64) -> Option<LayersWorn> {
-        let rule = self.surfaces.wearing.as_ref()?.rule();
-        layers_worn(self.plan, rule, &self.state, contact_area)
+        let rule = self.case().wear.as_ref()?;
+        let over = upper_wear_over_grid(self.plan, &self.state);
+        layers_worn(self.plan, rule, (&self.state, over.as_ref()), contact_area)
     }
 
     /// Finds the elastic response anew where layers have become thinner.
     fn thin(&mut self) -> Result<(), RunError> {
         let Some(wearing) = &mut self.surfaces.wearing else { return Ok(()) };
-        let Some(depths) = due(wearing.rule(), wearing.collected().thinned(), &self.state) else {
-            return Ok(());
-        };
         let case = &self.plan.case;
+        let over = upper_wear_over_grid(self.plan, &self.state);
+        let due = case
+            .wear
+            .as_ref()
+            .and_then(|rule| due(rule, wearing.collected().thinned(), (&self.state, over.as_ref())));
+        let Some(depths) = due else { return Ok(()) };
         let bodies = bodies_left(self.plan, depths).map_err(|reason| too_thin(case, &self.place, reason))?;
         let compliance = PairCompliance::of_bodies(self.plan, &bodies);
-        wearing.set_thinned(depths, StiffestWave::of(self.plan, &compliance));
-        self.solver.set_response(compliance.response, compliance.table);
-        Ok(())
+        for wearing in self.surfaces.each_wearing() {
+            wearing.set_thinned(depths, StiffestWave::of(self.plan, &compliance));
+        }
+        let (increment, stage) = (self.place.solved, self.place.stage);
+        self.solver
+            .set_response(self.plan, &bodies, compliance)
+            .map_err(|error| run_error(&error, increment, case, stage))
     }
 
     /// What is told of a place that is worn through after more cycles of the stage at work.
@@ -327,7 +344,7 @@ impl<'a> Journey<'a> {
         if let (true, Some(wearing), Some(depth)) =
             (block.opened, &self.surfaces.wearing, &self.state.worn_depth)
         {
-            self.solver.set_gap(wearing.gap(depth));
+            self.solver.open_gap(|| wearing.gap(depth));
         }
         if block.opened && block.through.is_none() {
             self.thin()?;

@@ -7,6 +7,7 @@ mod fretting_loop;
 mod in_common;
 mod journey;
 mod loop_reading;
+mod moving;
 mod observer;
 mod pair_compliance;
 pub mod plausibility;

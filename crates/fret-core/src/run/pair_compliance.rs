@@ -29,7 +29,17 @@ impl PairCompliance {
 
     /// That of other bodies on the grid of a plan.
     pub fn of_bodies(plan: &Plan, bodies: &ContactPair) -> Self {
-        Self { response: response(plan, bodies), table: table(plan, bodies) }
+        let wanted = match plan.coupling {
+            Coupling::Frictionless => Components::NORMAL,
+            Coupling::Uncoupled => Components { normal: true, tangential: true, coupling: false },
+            Coupling::Coupled => Components::ALL,
+        };
+        Self { response: response(plan, bodies, wanted), table: table(plan, bodies) }
+    }
+
+    /// How other bodies answer on the cells of a plan's grid, with all components.
+    pub fn all_components(plan: &Plan, bodies: &ContactPair) -> SurfaceResponse {
+        response(plan, bodies, Components::ALL)
     }
 
     /// All that it depends on.
@@ -45,13 +55,8 @@ impl PairCompliance {
     }
 }
 
-fn response(plan: &Plan, bodies: &ContactPair) -> SurfaceResponse {
+fn response(plan: &Plan, bodies: &ContactPair, wanted: Components) -> SurfaceResponse {
     let case = &plan.case;
-    let wanted = match plan.coupling {
-        Coupling::Frictionless => Components::NORMAL,
-        Coupling::Uncoupled => Components { normal: true, tangential: true, coupling: false },
-        Coupling::Coupled => Components::ALL,
-    };
     let spacing = plan.grid.spacing();
     let plain = plan.leave_out.takes(Simplification::LayeredResponse);
     let [width, depth] = plan.grid.size();

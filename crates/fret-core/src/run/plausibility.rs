@@ -25,7 +25,9 @@ pub fn of_plan(plan: &Plan) -> Vec<Warning> {
         look(Concern::ContactRadiusOverBodyRadius, over_body(plan, [x, y]));
         look(Concern::ApproachOverContactRadius, contact.approach / x.min(y));
         look(Concern::ApproachOverLayerThickness, contact.approach / layers_on_rigid_base(plan));
-        look(Concern::ShiftOverContactRadius, largest_shift(plan) / radius);
+        if !plan.case.kinematics.is_finite() {
+            look(Concern::ShiftOverContactRadius, largest_shift(plan) / radius);
+        }
     }
     look(Concern::SteepTopography, steepest(plan));
     look(Concern::CoatingThinnerThanCell, coating_where_stresses_are_asked(plan) / longer_side(plan));
@@ -165,6 +167,8 @@ fn steepest(plan: &Plan) -> f64 {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Gauge {
     ends: Vec<End>,
+    /// Whether surfaces stay where they are, whatever the shift.
+    stays: bool,
     /// Largest shift over contact radius, and its stage.
     shift: Option<(f64, usize)>,
     /// How the contact grows.
@@ -190,7 +194,7 @@ struct End {
 impl Gauge {
     /// Of a run that has yet to begin.
     pub fn of(plan: &Plan) -> Self {
-        Self { rings: Rings::of(plan), ..Self::default() }
+        Self { rings: Rings::of(plan), stays: !plan.case.kinematics.is_finite(), ..Self::default() }
     }
 
     /// Reads an increment.
@@ -213,7 +217,7 @@ impl Gauge {
             }
         };
         self.rings.add(record);
-        if record.contact_cells > 0 {
+        if record.contact_cells > 0 && self.stays {
             let [x, y] = record.shift;
             larger(&mut self.shift, x.hypot(y) / equivalent_radius(record.contact_area));
         }

@@ -92,6 +92,7 @@ pub fn kept(
         gap: one("gap", &solved.gap)?,
         zone: asked("zone").then(|| whole_zones(&state.zone, symmetry)).transpose()?,
         worn_depth: None,
+        own_worn_depth: None,
         friction: one("friction", &coefficients)?,
         rest: None,
     })

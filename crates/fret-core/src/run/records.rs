@@ -26,7 +26,7 @@ impl Records {
         self,
         plan: &Plan,
         (place, state): (&Place, ContactState),
-        (wear, slip): (Option<&Collected>, Option<&CollectedSlip>),
+        (wear, slip): ([Option<&Collected>; 2], Option<&CollectedSlip>),
     ) -> History {
         let case = &plan.case;
         let Self { steps, cycles, fields, warnings } = self;
@@ -42,9 +42,12 @@ impl Records {
             steps,
             cycles,
             worn_through: place.worn_through,
-            worn_by_layer: layers
-                .zip(state.worn_depth.as_ref())
-                .map(|(layers, depth)| WornByLayer::new(layers, depth, plan.grid.cell_area())),
+            worn_by_layer: layers.zip(state.worn_depth.as_ref()).map(|(layers, depth)| {
+                match &state.upper_worn_depth {
+                    None => WornByLayer::new(layers, depth, plan.grid.cell_area()),
+                    Some(upper) => WornByLayer::of_bodies(layers, [depth, upper], plan.grid.cell_area()),
+                }
+            }),
             fields,
             state,
             end,
@@ -57,7 +60,8 @@ impl Records {
 impl Checkpoint {
     /// A history that has nothing but its start.
     pub(super) fn history(self, plan: &Plan) -> History {
-        let Self { place, state, wear, slip, .. } = self;
-        Records::default().history(plan, (&place, state), (wear.as_ref(), slip.as_ref()))
+        let Self { place, state, wear, upper_wear, slip, .. } = self;
+        let worn = [wear.as_ref(), upper_wear.as_ref()];
+        Records::default().history(plan, (&place, state), (worn, slip.as_ref()))
     }
 }

@@ -3,10 +3,11 @@
 
 use ndarray::Zip;
 
+use super::moving::Stepper;
 use super::surfaces::Surfaces;
 use crate::history::Work;
 use crate::model::{ContactState, Integration, LoadStep};
-use crate::solver::{ContactSolver, Increment, IterationCallback, SolveError, SolverMemory};
+use crate::solver::{Increment, IterationCallback, SolveError, SolverMemory};
 
 /// Halvings of a step that is not solved as a whole, at the most.
 const MOST_HALVINGS: u32 = 5;
@@ -36,7 +37,7 @@ pub struct Span<'a> {
 /// # Errors
 /// Those of the equations; that they do not converge, when the smallest part does not.
 pub fn in_halves(
-    solver: &mut ContactSolver<'_>,
+    solver: &mut Stepper<'_>,
     surfaces: &mut Surfaces,
     span: Span<'_>,
     watch: IterationCallback<'_>,
@@ -45,7 +46,7 @@ pub fn in_halves(
 }
 
 fn halved(
-    solver: &mut ContactSolver<'_>,
+    solver: &mut Stepper<'_>,
     surfaces: &mut Surfaces,
     span: Span<'_>,
     halvings: u32,
@@ -53,7 +54,10 @@ fn halved(
 ) -> Result<(Increment, usize), SolveError> {
     match solver.step(span.state, span.to, watch) {
         Ok(end) => {
-            surfaces.add(span.state, &end.state);
+            if solver.moves_friction() {
+                surfaces.take_friction(solver.solver.friction());
+            }
+            surfaces.add(span.state, &end.state)?;
             Ok((end, 1))
         }
         Err(SolveError::NotConverged { .. }) if halvings > 0 && span.from != span.to => {
@@ -139,7 +143,7 @@ impl Refinement {
     /// [`DivisionError::Unresolved`] when even the most parts are not enough; errors of the equations as they come.
     pub fn solve(
         &self,
-        solver: &mut ContactSolver<'_>,
+        solver: &mut Stepper<'_>,
         surfaces: &Surfaces,
         span: Span<'_>,
         parts: usize,
@@ -184,7 +188,7 @@ impl Refinement {
 
     fn way(
         &self,
-        solver: &mut ContactSolver<'_>,
+        solver: &mut Stepper<'_>,
         mut surfaces: Surfaces,
         span: Span<'_>,
         parts: usize,
@@ -237,12 +241,12 @@ mod tests {
         Base, Body, ContactPair, Control, CoulombFriction, ElasticMaterial, HalfSpace, Integration,
         SurfaceGrid,
     };
-    use crate::solver::{Coupling, SolverSettings};
+    use crate::solver::{ContactSolver, Coupling, SolverSettings};
 
     const CELLS: usize = 32;
 
     /// A rigid sphere on a half-space, whose contact at force 1 has the radius 1 about.
-    fn solver(friction: &CoulombFriction, most_changes: usize) -> ContactSolver<'_> {
+    fn solver(friction: &CoulombFriction, most_changes: usize) -> Stepper<'_> {
         let material = ElasticMaterial::new(0.7, 0.3).unwrap();
         let body = HalfSpace::new(Vec::new(), Base::Elastic(material)).unwrap();
         let pair = ContactPair::new(Body::Rigid, Body::Elastic(body)).unwrap();
@@ -259,7 +263,8 @@ mod tests {
             integration: Integration::EndPoint, // whole steps and halves of one and the same rule
             ..SolverSettings::new(1e-9)
         };
-        ContactSolver::new(grid, gap, friction, Coupling::Coupled, response, settings, true)
+        let solver = ContactSolver::new(grid, gap, friction, Coupling::Coupled, response, settings, true);
+        Stepper::still(solver)
     }
 
     fn load(normal: f64, tangential: f64) -> LoadStep {

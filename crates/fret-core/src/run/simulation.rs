@@ -7,18 +7,19 @@ use ndarray::Array2;
 use super::checkpoint::Checkpoint;
 use super::evolving::Evolving;
 use super::journey::Journey;
+use super::moving::{Moving, Stepper};
 use super::observer::Observer;
 use super::pair_compliance::PairCompliance;
 use super::plausibility::Gauge;
 use super::records::Records;
-use super::run_error::{RunError, too_thin};
+use super::run_error::{RunError, run_error, too_thin};
 use super::stiffest_wave::StiffestWave;
 use super::surfaces::Surfaces;
 use super::thinning::bodies_left;
 use super::wear::{Collected, Wearing};
 use crate::history::History;
 use crate::machine::memory::{Claim, claim};
-use crate::model::BulkCompliance;
+use crate::model::{BulkCompliance, Motion};
 use crate::plan::{Plan, Simplification};
 use crate::solver::{ContactSolver, SolverSettings};
 
@@ -100,9 +101,13 @@ impl<'a> Simulation<'a> {
         let plan = self.plan;
         let (case, symmetry) = (&plan.case, plan.symmetry);
         let thinned = from.wear.as_ref().map_or([0.0; 2], Collected::thinned);
+        let mut bodies = case.bodies.clone();
         let compliance = match &self.compliance {
             _ if thinned != [0.0; 2] => match bodies_left(plan, thinned) {
-                Ok(bodies) => PairCompliance::of_bodies(plan, &bodies),
+                Ok(left) => {
+                    bodies = left;
+                    PairCompliance::of_bodies(plan, &bodies)
+                }
                 Err(reason) => {
                     let error = too_thin(case, &from.place, reason);
                     return (from.history(plan), Err(error));
@@ -111,7 +116,7 @@ impl<'a> Simulation<'a> {
             Some(compliance) => PairCompliance::clone(compliance),
             None => PairCompliance::of(plan),
         };
-        let Checkpoint { place, state, memory, cycle, wear, slip } = from;
+        let Checkpoint { place, state, memory, cycle, wear, upper_wear, slip } = from;
         let stiffest = case.wear.is_some().then(|| StiffestWave::of(plan, &compliance));
         let gap = case.profile.gap(&plan.grid);
         let unworn = state.worn_depth.as_ref().map(|_| symmetry.part(&gap));
@@ -120,17 +125,36 @@ impl<'a> Simulation<'a> {
             solver.set_gap(unworn + depth);
         }
         let friction = || symmetry.part_of_friction(&case.friction).into_owned();
-        let wears = case.wear.clone().zip(wear).zip(stiffest.zip(unworn));
+        let upper =
+            case.wear.as_ref().zip(upper_wear).zip(stiffest.clone()).map(|((rule, collected), stiffest)| {
+                let wearing =
+                    Wearing::new(rule.of_body(1), stiffest, Array2::zeros([0, 0]), friction(), collected);
+                (wearing, (Motion::over(&plan.grid), case.periodic))
+            });
+        let rule =
+            if upper.is_some() { case.wear.as_ref().map(|rule| rule.of_body(0)) } else { case.wear.clone() };
+        let wears = rule.zip(wear).zip(stiffest.zip(unworn));
         let wearing = wears.map(|((rule, collected), (stiffest, unworn))| {
             Wearing::new(rule, stiffest, unworn, friction(), collected)
         });
         let evolution = case.friction_evolution.clone().zip(slip).zip(state.accumulated.as_ref());
         let evolving =
             evolution.map(|((rule, collected), slipped)| Evolving::new(rule, friction(), slipped, collected));
-        let surfaces = Surfaces { wearing, evolving, integration: case.integration };
+        let surfaces = Surfaces { wearing, upper, evolving, integration: case.integration };
         solver.set_tilt(state.tilt);
         // Last: a new gap makes a solver forget.
         solver.restore_memory(memory);
+        let moving = plan.moves.then(|| Moving::of(plan, &bodies)).transpose();
+        let moving = match moving {
+            Ok(moving) => moving,
+            Err(error) => {
+                let error = run_error(&error, place.solved, case, place.stage);
+                let worn = surfaces.worn();
+                let slipped = surfaces.evolving.as_ref().map(Evolving::collected);
+                return (Records::default().history(plan, (&place, state), (worn, slipped)), Err(error));
+            }
+        };
+        let solver = Stepper { solver, moving };
         let (records, gauge) = (Records::default(), Gauge::of(plan));
         let journey = Journey { plan, solver, surfaces, state, records, gauge, place, cycle, observer };
         journey.through_all_stages()
@@ -150,7 +174,7 @@ impl<'a> Simulation<'a> {
                 scheme: case.scheme,
                 integration: case.integration,
                 single_precision: plan.single_precision,
-                reuse_pressure: plan.leave_out.takes(Simplification::Pressure),
+                reuse_pressure: plan.leave_out.takes(Simplification::Pressure) && !plan.moves,
                 skip_unloaded_shear: plan.leave_out.takes(Simplification::Tangential),
                 ..SolverSettings::new(case.tolerance)
             },

@@ -50,6 +50,31 @@ fn add_dissipation(
     });
 }
 
+/// What [`add_wear`] adds between two states that follow each other, by what each of them has a part in: the pressure before, and after.
+pub fn wear_by_ends(
+    states: [&ContactState; 2],
+    integration: Integration,
+    friction: &CoulombFriction,
+    rule: &WearRule,
+) -> [Array2<f64>; 2] {
+    let k = rule.coefficient.unwrap_or(1.0);
+    let ways = ways(states, integration);
+    [0, 1].map(|end| {
+        let bounds = match rule.law {
+            WearLaw::Energy => friction_bounds(friction, &states[end].pressure),
+            WearLaw::Archard => states[end].pressure.clone(),
+        };
+        let mut worn = bounds;
+        Zip::from(&mut worn).and(&ways).for_each(|worn, way| *worn *= 0.5 * k * way);
+        worn
+    })
+}
+
+/// Length of the slip path in every cell [length] between two states that follow each other.
+pub fn path(states: [&ContactState; 2], integration: Integration) -> Array2<f64> {
+    ways(states, integration)
+}
+
 /// Adds the depth [length] worn between two states that follow each other under a friction law; where each layer has a coefficient of
 /// its own, the work by area [pressure x length] that they wear by. Cells that stick at both ends have no slip.
 pub fn add_wear(

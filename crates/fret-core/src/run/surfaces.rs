@@ -1,15 +1,20 @@
 //! What slip does to the surfaces in the course of a run: it wears them, and changes their friction. Both are collected over a cycle and
 //! take effect when it is over.
 
+use ndarray::Array2;
+
 use super::evolving::{Evolved, Evolving};
-use super::wear::{TooFast, Wearing};
-use crate::model::{ContactState, CoulombFriction, Integration};
+use super::wear::{self, Collected, TooFast, Wearing};
+use crate::model::{ContactState, CoulombFriction, Integration, Motion};
+use crate::solver::SolveError;
 
 /// Surfaces that may change by slip.
 #[derive(Debug, Clone, Default)]
 pub struct Surfaces {
-    /// Their wear, where they wear.
+    /// Their wear, where they wear; that of the lower body alone, where they move against each other.
     pub wearing: Option<Wearing>,
+    /// Wear of the upper body in its own frame, where they move against each other; how it moves, and whether the surfaces repeat.
+    pub upper: Option<(Wearing, (Motion, bool))>,
     /// Their friction, where it evolves.
     pub evolving: Option<Evolving>,
     /// How slip is integrated.
@@ -33,15 +38,43 @@ pub struct Block {
     pub wear_jump_error: Option<f64>,
 }
 
+impl Block {
+    /// Takes the wear of a body off its depth.
+    fn take(&mut self, worn: wear::Block, depth: &mut Option<Array2<f64>>) {
+        self.through = self.through.or(worn.through);
+        self.coating_through = match (self.coating_through, worn.coating_through) {
+            (Some(one), Some(other)) if other.1 < one.1 => Some(other),
+            (one, other) => one.or(other),
+        };
+        self.wear_jump_error = match (self.wear_jump_error, worn.jump_error) {
+            (Some(one), Some(other)) => Some(one.max(other)),
+            (one, other) => one.or(other),
+        };
+        if let Some(depth) = depth
+            && worn.depth.iter().any(|depth| *depth > 0.0)
+        {
+            *depth += &worn.depth;
+            self.opened = true;
+        }
+    }
+}
+
 impl Surfaces {
     /// Adds the slip between two states that follow each other.
-    pub fn add(&mut self, before: &ContactState, after: &ContactState) {
+    ///
+    /// # Errors
+    /// When the wear of the upper body leaves the grid.
+    pub fn add(&mut self, before: &ContactState, after: &ContactState) -> Result<(), SolveError> {
+        if let Some((upper, motion)) = &mut self.upper {
+            upper.add_in_frame([before, after], self.integration, *motion)?;
+        }
         if let Some(wearing) = &mut self.wearing {
             wearing.add([before, after], self.integration);
         }
         if let Some(evolving) = &mut self.evolving {
             evolving.add([before, after], self.integration);
         }
+        Ok(())
     }
 
     /// A stage begins.
@@ -49,16 +82,26 @@ impl Surfaces {
         if let Some(evolving) = &mut self.evolving {
             evolving.begin_stage();
         }
-        if let Some(wearing) = &mut self.wearing {
-            wearing.begin_stage();
-        }
+        self.each_wearing().for_each(Wearing::begin_stage);
     }
 
     /// The friction law that the case has for the stage at work, unless friction evolves: that by which the surfaces wear.
     pub fn take_friction(&mut self, friction: &CoulombFriction) {
-        if let Some(wearing) = &mut self.wearing {
-            wearing.set_friction(self.evolving.as_ref().map_or(friction, Evolving::friction));
+        let Self { wearing, upper, evolving, .. } = self;
+        for wearing in wearing.iter_mut().chain(upper.as_mut().map(|(upper, _)| upper)) {
+            wearing.set_friction(evolving.as_ref().map_or(friction, Evolving::friction));
         }
+    }
+
+    /// What was collected since the gap was opened last: of both bodies together, or of the lower and the upper one.
+    pub fn worn(&self) -> [Option<&Collected>; 2] {
+        let upper = self.upper.as_ref().map(|(upper, _)| upper);
+        [self.wearing.as_ref(), upper].map(|wearing| wearing.map(Wearing::collected))
+    }
+
+    /// The wear of both bodies together, or of each.
+    pub fn each_wearing(&mut self) -> impl Iterator<Item = &mut Wearing> {
+        self.wearing.iter_mut().chain(self.upper.as_mut().map(|(upper, _)| upper))
     }
 
     /// Changes a state by what was collected, as often as that may stand for cycles: `most` times at the most, once where it is that of
@@ -71,7 +114,8 @@ impl Surfaces {
         state: &mut ContactState,
         (most, of_cycle): (usize, bool),
     ) -> Result<Block, TooFast> {
-        let Self { wearing, evolving, .. } = self;
+        let Self { wearing, upper, evolving, .. } = self;
+        let mut upper = upper.as_mut().map(|(upper, _)| upper);
         let mut most = most;
         if wearing.is_none() && evolving.is_none() {
             most = 1;
@@ -90,21 +134,24 @@ impl Surfaces {
             evolved: None,
             wear_jump_error: None,
         };
+        let softening = wearing.iter().chain(upper.as_deref()).map(Wearing::softening).sum();
+        let before = (state.approach, softening);
         if let Some(wearing) = wearing {
-            let worn = wearing.block(state, most)?;
-            (block.cycles, block.through, block.coating_through) =
-                (worn.cycles, worn.through, worn.coating_through);
-            block.wear_jump_error = worn.jump_error;
-            if let Some(depth) = &mut state.worn_depth
-                && worn.depth.iter().any(|depth| *depth > 0.0)
-            {
-                *depth += &worn.depth;
-                block.opened = true;
+            block.cycles = wearing.cycles(state.worn_depth.as_ref(), before, block.cycles)?;
+        }
+        if let Some(upper) = &upper {
+            block.cycles = upper.cycles(state.upper_worn_depth.as_ref(), before, block.cycles)?;
+        }
+        let bodies =
+            [(wearing.as_mut(), &mut state.worn_depth), (upper.as_deref_mut(), &mut state.upper_worn_depth)];
+        for (wearing, depth) in bodies {
+            if let Some(wearing) = wearing {
+                block.take(wearing.block(depth.as_ref(), block.cycles), depth);
             }
         }
         if let (Some(evolving), Some(slipped)) = (evolving, &mut state.accumulated) {
             block.evolved = Some(evolving.advance(slipped, block.cycles));
-            if let Some(wearing) = wearing {
+            for wearing in wearing.iter_mut().chain(upper) {
                 wearing.set_friction(evolving.friction());
             }
         }

@@ -21,11 +21,19 @@ pub struct LayersWorn {
 
 /// Mean depths off the lower and the upper body over the contact, weighted with the pressure [length]; where nothing touches weighted
 /// with the depth.
-pub fn mean_depths(layers: &WearLayers, state: &ContactState) -> [f64; 2] {
+///
+/// `over`: depth off the upper body in the cells over which it lies [length], where the bodies move against each other.
+pub fn mean_depths(layers: &WearLayers, state: &ContactState, over: Option<&Array2<f64>>) -> [f64; 2] {
     let Some(worn) = &state.worn_depth else { return [0.0; 2] };
     let touches = state.pressure.iter().any(|pressure| *pressure > 0.0);
-    let weights = if touches { &state.pressure } else { worn };
-    mean(layers, worn, weights)
+    let mean_of = |layers: &WearLayers, worn: &Array2<f64>| {
+        let weights = if touches { &state.pressure } else { worn };
+        mean(layers, worn, weights)
+    };
+    match over {
+        None => mean_of(layers, worn),
+        Some(upper) => [mean_of(&layers.of_body(0), worn)[0], mean_of(&layers.of_body(1), upper)[1]],
+    }
 }
 
 fn mean(layers: &WearLayers, worn: &Array2<f64>, weights: &Array2<f64>) -> [f64; 2] {
@@ -45,9 +53,13 @@ fn mean(layers: &WearLayers, worn: &Array2<f64>, weights: &Array2<f64>) -> [f64;
 }
 
 /// The depths for which the response is to be found anew, where those for which it was found are no longer near enough.
-pub fn due(rule: &WearRule, found_for: [f64; 2], state: &ContactState) -> Option<[f64; 2]> {
+pub fn due(
+    rule: &WearRule,
+    found_for: [f64; 2],
+    (state, over): (&ContactState, Option<&Array2<f64>>),
+) -> Option<[f64; 2]> {
     let (layers, tolerance) = rule.layers.as_ref().zip(rule.thinning_tolerance)?;
-    let now = mean_depths(layers, state);
+    let now = mean_depths(layers, state, over);
     let bodies = layers.bodies();
     let is_far = (0..2).any(|body| {
         let mut end = 0.0;
@@ -90,25 +102,43 @@ pub fn bodies_left(plan: &Plan, depths: [f64; 2]) -> Result<ContactPair, &'stati
 }
 
 /// What is known of the layers at the end of a cycle whose contact has an area [length^2, of a line contact length].
-pub fn layers_worn(plan: &Plan, rule: &WearRule, state: &ContactState, area: f64) -> Option<LayersWorn> {
+pub fn layers_worn(
+    plan: &Plan,
+    rule: &WearRule,
+    (state, over): (&ContactState, Option<&Array2<f64>>),
+    area: f64,
+) -> Option<LayersWorn> {
     let (layers, worn) = rule.layers.as_ref().zip(state.worn_depth.as_ref())?;
-    let deepest = layers.at_depth(worn.iter().copied().fold(0.0, f64::max));
+    let most_of = |field: &Array2<f64>| field.iter().copied().fold(0.0, f64::max);
+    let deepest = match &state.upper_worn_depth {
+        None => layers.at_depth(most_of(worn)).depths,
+        Some(upper) => [most_of(worn), most_of(upper)],
+    };
     let spread = || {
-        let touching = || worn.iter().zip(&state.pressure).filter(|(_, pressure)| **pressure > 0.0);
-        let depths = || touching().map(|(depth, _)| *depth);
-        let least = depths().reduce(f64::min)?;
-        let most = depths().reduce(f64::max)?;
+        // Depths off both bodies in a cell; together, and of each.
+        let depths_at = |cell: (usize, usize)| match over {
+            None => (worn[cell], layers.at_depth(worn[cell]).depths),
+            Some(upper) => (worn[cell] + upper[cell], [worn[cell], upper[cell]]),
+        };
+        let touching = state.pressure.indexed_iter().filter(|(_, pressure)| **pressure > 0.0);
+        let mut ends: Option<[(f64, [f64; 2]); 2]> = None;
+        for (cell, _) in touching {
+            let here = depths_at(cell);
+            let [least, most] = ends.unwrap_or([here; 2]);
+            ends = Some([
+                if here.0 < least.0 { here } else { least },
+                if here.0 > most.0 { here } else { most },
+            ]);
+        }
+        let ends = ends?;
         let radius = if plan.grid.is_line() { 0.5 * area } else { (area / std::f64::consts::PI).sqrt() };
         let compliance = |depths: [f64; 2]| {
             let left = thinned(&plan.case.bodies, depths).ok()?;
             Some(PairResponse::new(&left).times_k(1.0 / radius).zz)
         };
-        let ends = [least, most].map(|depth| compliance(layers.at_depth(depth).depths));
-        let mean = compliance(mean_depths(layers, state))?;
+        let ends = ends.map(|(_, depths)| compliance(depths));
+        let mean = compliance(mean_depths(layers, state, over))?;
         Some((ends[1]? - ends[0]?).abs() / mean).filter(|spread| spread.is_finite())
     };
-    Some(LayersWorn {
-        depths: deepest.depths,
-        compliance_spread: rule.thinning_tolerance.and_then(|_| spread()),
-    })
+    Some(LayersWorn { depths: deepest, compliance_spread: rule.thinning_tolerance.and_then(|_| spread()) })
 }

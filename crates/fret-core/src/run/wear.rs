@@ -3,11 +3,12 @@
 use ndarray::{Array2, Zip};
 use serde::{Deserialize, Serialize};
 
-use super::slip_increment::{add_path, add_wear};
+use super::slip_increment::{add_path, add_wear, path, wear_by_ends};
 use super::stiffest_wave::StiffestWave;
-use crate::fields::stored;
-use crate::model::{ContactState, CoulombFriction, Integration, WearLaw, WearLayers, WearRule};
+use crate::fields::{Outside, carried, leaves, stored};
+use crate::model::{ContactState, CoulombFriction, Integration, Motion, WearLaw, WearLayers, WearRule};
 use crate::plan::Plan;
+use crate::solver::SolveError;
 
 /// Share of the stiffest wave of pressure that a block may take off at the most. Above 2 such a wave would grow with every block: on
 /// half-spaces neighbouring cells, on nearly incompressible films wider regions would take turns in carrying the load.
@@ -106,8 +107,6 @@ pub struct Wearing {
 /// A block of equal cycles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Block {
-    /// How many.
-    pub cycles: usize,
     /// Depth they wear off together [length].
     pub depth: Array2<f64>,
     /// The deepest cell, when it has reached the limit.
@@ -133,11 +132,6 @@ impl Wearing {
     /// Another friction law from now on.
     pub fn set_friction(&mut self, friction: &CoulombFriction) {
         self.friction.clone_from(friction);
-    }
-
-    /// How surfaces wear.
-    pub fn rule(&self) -> &WearRule {
-        &self.rule
     }
 
     /// The bodies are found anew, for mean depths off the lower and the upper one.
@@ -167,13 +161,33 @@ impl Wearing {
         add_path(states, integration, &mut self.collected.path);
     }
 
-    /// The block that the wear collected so far stands for, at the most `most` cycles; collecting starts anew.
+    /// Adds the wear of the upper body between two states that follow each other, in its own frame: what each pressure has a part in lies where
+    /// the body was under it.
     ///
     /// # Errors
-    /// When a single cycle takes off more than the stiffest wave of pressure can follow.
-    pub fn block(&mut self, state: &ContactState, most: usize) -> Result<Block, TooFast> {
-        let softening = self
-            .collected
+    /// When it leaves the grid, on which the body lay without a shift.
+    pub fn add_in_frame(
+        &mut self,
+        states: [&ContactState; 2],
+        integration: Integration,
+        (motion, repeats): (Motion, bool),
+    ) -> Result<(), SolveError> {
+        let outside = if repeats { Outside::Repeats } else { Outside::Zero };
+        let back = states.map(|state| motion.cells(state.shift).map(|cells| -cells));
+        let worn = wear_by_ends(states, integration, &self.friction, &self.rule);
+        for (worn, back) in worn.iter().zip(back) {
+            if !repeats && leaves(worn, back) {
+                return Err(SolveError::ContactAtEdge);
+            }
+            self.collected.wear += &carried(worn, back, outside);
+        }
+        self.collected.path += &carried(&path(states, integration), back[1], outside);
+        Ok(())
+    }
+
+    /// Share of the stiffest wave of pressure that the wear collected so far takes off.
+    pub fn softening(&self) -> f64 {
+        self.collected
             .path
             .indexed_iter()
             .map(|((i, j), path)| match self.rule.law {
@@ -182,27 +196,43 @@ impl Wearing {
             })
             .fold(0.0, f64::max)
             * self.rule.largest_rate()
-            / self.stiffest.displacement(&self.collected.path);
+            / self.stiffest.displacement(&self.collected.path)
+    }
+
+    /// Depth [length] that the wear collected so far takes off a body worn by `worn` [length] in so many cycles.
+    fn of_cycles(&self, cycles: f64, worn: Option<&Array2<f64>>) -> Array2<f64> {
+        let mut depth = &self.collected.wear * cycles;
+        let layers = self.rule.layers.as_ref();
+        if layers.is_some() {
+            let worn = |cell: (usize, usize)| worn.map_or(0.0, |worn| worn[cell]);
+            depth.indexed_iter_mut().for_each(|(cell, wear)| *wear = deeper(layers, worn(cell), *wear));
+        }
+        depth
+    }
+
+    /// Cycles that the wear collected so far may stand for, at the most `most`, at an approach [length]; `softening`: what one of them takes
+    /// off both bodies, see [`Wearing::softening`].
+    ///
+    /// # Errors
+    /// When a single cycle takes off more than the stiffest wave of pressure can follow.
+    pub fn cycles(
+        &self,
+        worn: Option<&Array2<f64>>,
+        (approach, softening): (f64, f64),
+        most: usize,
+    ) -> Result<usize, TooFast> {
         if softening > STABLE_SHARE {
             return Err(TooFast { share: softening });
         }
-        let worn = |cell: (usize, usize)| state.worn_depth.as_ref().map_or(0.0, |worn| worn[cell]);
         let rule = &self.rule;
-        let of_cycles = |cycles: f64| {
-            let mut depth = &self.collected.wear * cycles;
-            if rule.layers.is_some() {
-                let layers = rule.layers.as_ref();
-                depth.indexed_iter_mut().for_each(|(cell, wear)| *wear = deeper(layers, worn(cell), *wear));
-            }
-            depth
-        };
-        let deepest = of_cycles(1.0).into_iter().fold(0.0, f64::max);
+        let deepest = self.of_cycles(1.0, worn).into_iter().fold(0.0, f64::max);
+        let worn = |cell: (usize, usize)| worn.map_or(0.0, |worn| worn[cell]);
         let within =
             |bound: f64, each: f64| if each > 0.0 { (bound / each).floor() as usize } else { usize::MAX };
         let mut cycles = most
             .min(rule.every)
             .min(within(STABLE_SHARE, softening))
-            .min(within(rule.largest_step * state.approach.abs(), deepest))
+            .min(within(rule.largest_step * approach.abs(), deepest))
             .min(self.within_tolerance())
             .max(1);
         if let Some(limit) = rule.limit {
@@ -211,7 +241,14 @@ impl Wearing {
                 cycles = cycles.min(needed as usize);
             }
         }
-        let depth = of_cycles(cycles as f64);
+        Ok(cycles)
+    }
+
+    /// The block of so many cycles that the wear collected so far stands for; collecting starts anew.
+    pub fn block(&mut self, worn: Option<&Array2<f64>>, cycles: usize) -> Block {
+        let depth = self.of_cycles(cycles as f64, worn);
+        let worn = |cell: (usize, usize)| worn.map_or(0.0, |worn| worn[cell]);
+        let rule = &self.rule;
         let mut deepest = ([0, 0], 0.0);
         for (cell, more) in depth.indexed_iter() {
             if worn(cell) + more > deepest.1 {
@@ -228,7 +265,7 @@ impl Wearing {
         *last_cycles = cycles;
         wear.fill(0.0);
         path.fill(0.0);
-        Ok(Block { cycles, depth, through, coating_through, jump_error })
+        Block { depth, through, coating_through, jump_error }
     }
 
     /// The first cell whose depth reaches that of a coating within so many cycles, and after how many; of several the most worn. `None`
@@ -297,10 +334,14 @@ impl Wearing {
     }
 }
 
-/// Volume worn off the whole contact [length^3], and the largest depth [length].
+/// Volume worn off the whole contact [length^3], and the largest depth [length]; of bodies that move against each other the larger one of
+/// their own.
 pub fn worn(state: &ContactState, plan: &Plan) -> [f64; 2] {
-    state.worn_depth.as_ref().map_or([0.0; 2], |depth| {
+    let of = |depth: &Array2<f64>| {
         let volume = depth.iter().sum::<f64>() * plan.area_of_cell();
         [volume, depth.iter().copied().fold(0.0, f64::max)]
-    })
+    };
+    let lower = state.worn_depth.as_ref().map_or([0.0; 2], of);
+    let Some(upper) = state.upper_worn_depth.as_ref().map(of) else { return lower };
+    [lower[0] + upper[0], lower[1].max(upper[1])]
 }

@@ -53,7 +53,8 @@ impl IncrementProblem<'_> {
             let tilted = self.tilted(at, self.tilt);
             let [normal, x, y] =
                 found.as_ref().map_or([0.0; 3], |found| found.parts().map(|part| part[cell]));
-            let here = self.undeformed[cell] + tilted + normal - state.approach;
+            let moved = self.moved.as_ref().map_or(0.0, |moved| moved[cell]);
+            let here = self.undeformed[cell] - moved + tilted + normal - state.approach;
             gap.push(here);
             opened += state.pressure[at] * here;
             stored += state.pressure[at] * normal + state.shear[0][at] * x + state.shear[1][at] * y;
@@ -85,6 +86,8 @@ impl IncrementProblem<'_> {
         moved
     }
 
+    /// Surfaces that move work by their slopes under the pressure, and by the displacements that they carry along under the shear.
+    ///
     /// Adds to the energies of the state after an increment in which friction `dissipated` so much and the bulk stresses did the work
     /// `by_bulk`, both per area of a cell [pressure x length].
     pub fn account(
@@ -112,6 +115,12 @@ impl IncrementProblem<'_> {
                 [moved[0] - turned * grid.centre(1, at[1]), moved[1] + turned * grid.centre(0, at[0])];
             let drift = solved.drift.at(cell);
             work += pressure * (approached + self.tilted(at, after.tilt)) + x * to_x + y * to_y;
+            if let Some(moved) = &self.moved {
+                work -= pressure * moved[cell];
+            }
+            if let Some(carried) = &self.carried {
+                work += x * carried.x[cell] + y * carried.y[cell];
+            }
             slipped += x * drift[0] + y * drift[1];
             opened += pressure * (before.gap[cell] - solved.solution.gap[cell]);
         }

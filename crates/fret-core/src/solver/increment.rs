@@ -104,6 +104,9 @@ impl ContactSolver<'_> {
             region,
         );
         increment.pauses = self.pauses(load);
+        increment.travels = self.travel > 0;
+        increment.carried = self.carried.as_ref().map(|carried| region.gather_tangential(carried));
+        increment.moved = self.moved.as_ref().map(|moved| region.gather(moved));
         let known = self.memory.last.as_ref().map(|last| StateBefore::of_gap(&last.gap, region));
         let apart = match increment.apart() {
             Some(solved) if !increment.touched() => {
@@ -222,6 +225,7 @@ impl ContactSolver<'_> {
         increment: &Increment,
     ) {
         let pauses = self.pauses(load);
+        self.moved = None;
         let last = self.memory.last.take();
         let mut drift = Drift::default();
         if let (true, Some(last)) = (pauses, &last) {

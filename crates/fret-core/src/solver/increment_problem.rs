@@ -52,6 +52,12 @@ pub struct IncrementProblem<'a> {
     pub tangential: TangentialLoads,
     /// What the bulk stresses do in the increment.
     pub stretch: Stretch,
+    /// Whether the contact moves over the grid, so that cells enter and leave it by the way.
+    pub travels: bool,
+    /// What moving surfaces add to the displacement before [length].
+    pub carried: Option<TangentialField>,
+    /// By how much moving surfaces have changed the gap before deformation since the state before [length].
+    pub moved: Option<Vec<f64>>,
     /// What is known of the paths of slip.
     pub path: SlipPath,
     /// Whether nothing changes in it.
@@ -104,6 +110,9 @@ impl<'a> IncrementProblem<'a> {
             tangential: TangentialLoads::new(state, load, rig, [positions.length, area]),
             positions,
             stretch,
+            travels: false,
+            carried: None,
+            moved: None,
             path: SlipPath::default(),
             pauses: false,
             start: None,
@@ -177,6 +186,7 @@ impl<'a> IncrementProblem<'a> {
         let TangentialLoads { motion, resultant, .. } = self.tangential;
         motion != [0.0; 3]
             || !self.stretch.is_none()
+            || self.carried.is_some()
             || resultant != [0.0; 3]
             || self.state.shear.iter().any(|shear| shear.iter().any(|q| *q != 0.0))
     }

@@ -102,6 +102,11 @@ pub struct ContactSolver<'a> {
     /// Slope of the upper body that is in the gap, and the gap without it.
     tilt: [f64; 2],
     level: Option<Array2<f64>>,
+    /// What moving surfaces add to the displacement before the next increment [length], and the cells that the contact may move by in it.
+    carried: Option<[Array2<f64>; 2]>,
+    travel: usize,
+    /// By how much moving surfaces have changed the gap since the last increment [length].
+    moved: Option<Array2<f64>>,
 }
 
 impl<'a> ContactSolver<'a> {
@@ -138,6 +143,9 @@ impl<'a> ContactSolver<'a> {
             beyond: Beyond::Body,
             tilt: [0.0; 2],
             level: None,
+            carried: None,
+            travel: 0,
+            moved: None,
         }
     }
 
@@ -229,6 +237,33 @@ impl<'a> ContactSolver<'a> {
         let tilt = std::mem::take(&mut self.tilt);
         self.level = None;
         self.set_tilt(tilt);
+    }
+
+    /// The undeformed gap in force [length].
+    pub fn undeformed(&self) -> &Array2<f64> {
+        &self.undeformed
+    }
+
+    /// Goes on with the undeformed gap [length] of surfaces that have moved: the displacements known so far, which are those of the
+    /// tractions, still hold.
+    pub fn move_gap(&mut self, undeformed: Array2<f64>) {
+        let mut change = &undeformed - self.level.as_ref().unwrap_or(&self.undeformed);
+        if let Some(moved) = &self.moved {
+            change += moved;
+        }
+        self.moved = Some(change);
+        self.undeformed = undeformed;
+        self.coarse = None;
+        let tilt = std::mem::take(&mut self.tilt);
+        self.level = None;
+        self.set_tilt(tilt);
+    }
+
+    /// What surfaces that move by `cells` along each axis in the next increments add to the tangential displacement before [length], shape of the
+    /// grid: displacements that were elsewhere in the state before.
+    pub fn set_carried(&mut self, carried: Option<[Array2<f64>; 2]>, cells: [f64; 2]) {
+        self.carried = carried;
+        self.travel = cells[0].abs().max(cells[1].abs()).ceil() as usize;
     }
 
     /// Goes on with bodies that respond otherwise; `table`: their frequency response, where it is used. As with another gap, the displacements

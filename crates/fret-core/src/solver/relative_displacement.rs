@@ -17,7 +17,8 @@ use crate::fields::add_scaled;
 use crate::model::{TangentialField, Zone};
 
 impl IncrementProblem<'_> {
-    /// Tangential displacement of the state before [length], less that by the bulk stresses: slip counts its increment alone. `last`: the
+    /// Tangential displacement of the state before [length], less that by the bulk stresses: slip counts its increment alone; with what
+    /// moving surfaces bring along. `last`: the
     /// displacements of the state before, when they are known.
     pub fn displacement_before<'b>(
         &self,
@@ -28,10 +29,16 @@ impl IncrementProblem<'_> {
             || Cow::Owned(self.displacement_of_state(operators)),
             |last| Cow::Borrowed(&last.tangential),
         );
-        if self.stretch.is_none() {
+        if self.stretch.is_none() && self.carried.is_none() {
             return before;
         }
         let mut before = before.into_owned();
+        if let Some(carried) = &self.carried {
+            before.add_scaled(1.0, carried);
+        }
+        if self.stretch.is_none() {
+            return Cow::Owned(before);
+        }
         for cell in 0..self.region.len() {
             let [x, y] = self.stretch.at(self.grid, self.region.at(cell));
             before.x[cell] -= x;

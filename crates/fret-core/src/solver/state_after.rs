@@ -54,7 +54,10 @@ pub(super) fn state_after(
             stick_cells += 1;
             (Zone::Stick, [0.0; 2])
         };
-        let slip = problem.path.counted(cell, slip, before.zone[at] == Zone::Open);
+        // A contact that travels counts all of an increment's slip: in cells that enter it and in those that it leaves behind, under the mean
+        // of their bounds before and after, of which one is zero. So the sum over all cells is that of a contact which stays.
+        let is_entered = before.zone[at] == Zone::Open && !problem.travels;
+        let slip = problem.path.counted(cell, slip, is_entered);
         state.zone[at] = zone;
         for axis in 0..2 {
             state.slip[axis][at] += slip[axis];
@@ -71,7 +74,8 @@ pub(super) fn state_after(
             continue;
         }
         let (bound, _) = problem.friction.at(cell, before.pressure[at]);
-        let slip = slip_until_open(solved.drift.at(cell), shear, bound);
+        let drift = solved.drift.at(cell);
+        let slip = if problem.travels { drift } else { slip_until_open(drift, shear, bound) };
         for axis in 0..2 {
             state.slip[axis][at] += slip[axis];
         }
@@ -116,6 +120,7 @@ fn tractions_and_motions(problem: &IncrementProblem<'_>, solved: &Solved) -> Con
     let IncrementProblem { grid, region, state: before, .. } = *problem;
     let mut state = ContactState::untouched(grid.cells());
     state.worn_depth.clone_from(&before.worn_depth);
+    state.upper_worn_depth.clone_from(&before.upper_worn_depth);
     state.accumulated.clone_from(&before.accumulated);
     region.place(&solved.tractions.pressure, &mut state.pressure);
     region.place(&solved.tractions.shear.x, &mut state.shear[0]);

@@ -41,7 +41,7 @@ impl ContactSolver<'_> {
         let around = |margin: usize, good: fn(usize) -> usize| {
             Region::around(cells, axes, margin, good, |i, j| state.pressure[[i, j]] > 0.0)
         };
-        let growth = self.cells_of_growth(state, load);
+        let growth = self.cells_of_growth(state, load) + self.travel;
         let least = around(growth + 1, |n| n);
         let margin = (self.width(&around(1, |n| n)) / MARGIN_FRACTION).max(LEAST_MARGIN);
         let wanted = around(margin.max(growth + 2), good_length);

@@ -1,0 +1,126 @@
+//! The judgement of how the surfaces move, and of what moving surfaces cannot be combined with.
+
+use super::file::CaseFile;
+use super::judge::Judge;
+use super::misfits::{Loading, Misfit};
+use super::side::Side;
+use super::surface_file::OfFile;
+use crate::model::controls::{TILT, TWIST};
+use crate::model::{Displacement, Kinematics};
+
+/// What is looked at.
+pub(super) struct Concerned<'a> {
+    pub file: &'a CaseFile,
+    pub loading: Loading<'a>,
+}
+
+/// The way out of most refusals.
+const SMALL: &str = "displacement = \"small\", which leaves the surfaces where they are; or leave it out";
+const FINITE: &str = "kinematics.displacement = \"finite\"";
+
+/// How the surfaces move; refuses what they cannot be combined with.
+pub(super) fn kinematics(judge: &mut Judge, concerned: &Concerned<'_>) -> Kinematics {
+    let Concerned { file, loading } = concerned;
+    let given = file.kinematics.as_ref().and_then(|given| given.value.displacement.as_ref());
+    let moves_with = file.friction.as_ref().and_then(|friction| friction.moves_with.as_ref());
+    let displacement = given.map_or_else(Displacement::default, |given| given.value);
+    let kinematics = Kinematics {
+        displacement,
+        friction_of_upper: moves_with.is_some_and(|given| given.value == Side::Upper),
+    };
+    if !kinematics.is_finite() {
+        if let Some(given) = moves_with.filter(|_| kinematics.friction_of_upper) {
+            judge.refuse::<()>(
+                given.span(),
+                "friction.moves_with = \"upper\": surfaces that stay where they are do not move with a body",
+                "[kinematics] displacement = \"finite\"",
+            );
+        }
+        return kinematics;
+    }
+    let turning = Misfit { freedoms: TWIST..TILT, motions: false, in_table: "a twist" };
+    turning.refuse(
+        judge,
+        *loading,
+        &format!("with {FINITE}: surfaces are moved by the shift, not turned by a twist"),
+        SMALL,
+    );
+    if let Some(beyond) = file.grid.beyond.as_ref().filter(|beyond| !beyond.value.is_body()) {
+        judge.refuse::<()>(
+            beyond.span(),
+            format!("grid.beyond = \"no body\" with {FINITE}: nothing says which body ends there, and moves its edge"),
+            "a flat_punch or a rounded_punch in [upper.profile] has an edge that moves",
+        );
+    }
+    let heights = file.profile.as_ref().and_then(|profile| profile.value.heights.as_ref());
+    if let Some(of) =
+        heights.and_then(|heights| heights.value.of.as_ref()).filter(|of| of.value == OfFile::Gap)
+    {
+        judge.refuse::<()>(
+            of.span(),
+            format!("profile.heights.of = \"gap\" with {FINITE}: nothing says which body the heights are of"),
+            "[upper.profile.heights] or [lower.profile.heights], of = \"surface\"",
+        );
+    }
+    let coefficient = file.wear.as_ref().and_then(|wear| wear.value.coefficient.as_ref());
+    if let Some(given) = coefficient {
+        judge.refuse::<()>(
+            given.span(),
+            format!("wear.coefficient with {FINITE}: it is that of both bodies together, and each wears in its own frame"),
+            "wear_coefficient = ... in the layers, substrates and rigid bodies that wear",
+        );
+    }
+    let evolution = file.friction.as_ref().and_then(|friction| friction.evolution.as_ref());
+    if let Some(given) = evolution.filter(|_| kinematics.friction_of_upper) {
+        judge.refuse::<()>(
+            given.span(),
+            "friction.evolution with friction.moves_with = \"upper\": slip is collected in the frame of the lower body",
+            "moves_with = \"lower\"",
+        );
+    }
+    if let Some(thermal) = &file.thermal {
+        judge.refuse::<()>(
+            thermal.span(),
+            format!(
+                "thermal with {FINITE}: the heat of a cycle is taken to enter both bodies in the same places"
+            ),
+            SMALL,
+        );
+    }
+    let body = file.stress.as_ref().and_then(|stress| stress.value.body.as_ref());
+    if let Some(body) = body.filter(|body| body.value == Side::Upper) {
+        judge.refuse::<()>(
+            body.span(),
+            format!(
+                "stress.body = \"upper\" with {FINITE}: tractions are kept in the frame of the lower body"
+            ),
+            "name the body whose stresses are asked for as the lower one",
+        );
+    }
+    kinematics
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::check::tests::{BALL, read, refused};
+
+    const MOVES: (&str, &str) = ("[friction]\n", "[kinematics]\ndisplacement = \"finite\"\n[friction]\n");
+
+    fn with<'a>(text: &'a str) -> (&'a str, &'a str) {
+        ("increments = 1\n", text)
+    }
+
+    #[test]
+    fn what_cannot_move_is_refused() {
+        assert!(read(BALL, &[MOVES]).kinematics.is_finite() && read(BALL, &[]).kinematics.is_default());
+        let wear = with("increments = 1\n[wear]\ncoefficient = 1e-3\n");
+        refused(BALL, &[MOVES, wear], "each wears in its own frame", "1e-3");
+        let twist = with("increments = 1\n[[load]]\ntwist = 1e-3\nincrements = 1\n");
+        refused(BALL, &[MOVES, twist], "not turned by a twist", "1e-3");
+        let ends = ("size = [3.0, 3.0]", "size = [3.0, 3.0]\nbeyond = \"no body\"");
+        refused(BALL, &[MOVES, ends], "which body ends there", "\"no body\"");
+        let map = ("coefficient = 0.3\n", "coefficient = 0.3\nmoves_with = \"upper\"\n");
+        refused(BALL, &[map], "stay where they are", "\"upper\"");
+        assert!(read(BALL, &[MOVES, map]).kinematics.friction_of_upper);
+    }
+}

@@ -1,0 +1,84 @@
+//! How surfaces move against each other: stay where they are, whatever the shift, or move with their bodies.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::grid::SurfaceGrid;
+use crate::document::Table;
+
+/// How far the surfaces are taken to move.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, Table, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "DisplacementFile")]
+pub enum Displacement {
+    /// Opposite points of the surfaces stay opposite: for a displacement that is small against the contact.
+    #[default]
+    Small,
+    /// The surface of the upper body moves with it by its shift: profile, topography, wear. Each body wears in its own frame.
+    Finite,
+}
+
+/// How the surfaces of a case move.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Kinematics {
+    /// How far they are taken to move.
+    pub displacement: Displacement,
+    /// Whether a friction map is the upper body's, and moves with it.
+    pub friction_of_upper: bool,
+}
+
+impl Kinematics {
+    /// Whether the surfaces stay where they are.
+    pub fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Whether the upper body's surface moves with it.
+    pub fn is_finite(&self) -> bool {
+        self.displacement == Displacement::Finite
+    }
+}
+
+/// Steps to which positions of surfaces are rounded, in a cell.
+const STEPS: f64 = 100.0;
+
+/// How the upper surface moves over the grid, which is fixed to the lower body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    spacing: [f64; 2],
+    is_line: bool,
+}
+
+impl Motion {
+    /// On a grid.
+    pub fn over(grid: &SurfaceGrid) -> Self {
+        Self { spacing: grid.spacing(), is_line: grid.is_line() }
+    }
+
+    /// Where the upper surface lies after a shift [length]: cells along each axis, rounded to a hundredth of a cell. Along a line contact nothing
+    /// moves.
+    pub fn cells(&self, shift: [f64; 2]) -> [f64; 2] {
+        let rounded = |axis: usize| (shift[axis] / self.spacing[axis] * STEPS).round() / STEPS;
+        [rounded(0), if self.is_line { 0.0 } else { rounded(1) }]
+    }
+
+    /// Whether a motion is less than what positions are rounded to.
+    pub fn is_none(&self, shift: [f64; 2]) -> bool {
+        self.cells(shift) == [0.0; 2]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_are_hundredths_of_a_cell() {
+        let motion = Motion::over(&SurfaceGrid::new([8, 8], [0.1, 0.3]).unwrap());
+        assert_eq!(motion.cells([0.3, -0.6]), [3.0, -2.0]);
+        assert_eq!(motion.cells([0.0346, 0.001]), [0.35, 0.0]);
+        assert!(motion.is_none([4.9e-4, -1e-3]) && !motion.is_none([6e-4, 0.0]));
+        let line = Motion::over(&SurfaceGrid::line(8, 0.1).unwrap());
+        assert_eq!(line.cells([0.1, 0.1]), [1.0, 0.0]);
+    }
+}

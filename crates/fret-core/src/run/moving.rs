@@ -1,0 +1,288 @@
+//! Increments of bodies whose surfaces move against each other: where the upper one lies over the grid, the gap there, and what of the upper
+//! body's displacement before is carried along.
+
+use std::borrow::Cow;
+
+use ndarray::Array2;
+
+use super::pair_compliance::PairCompliance;
+use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance};
+use crate::fields::{Outside, carried};
+use crate::model::{
+    BEYOND_THE_BODY, Body, ContactPair, ContactState, CoulombFriction, LoadStep, Motion, Profile,
+    SurfaceGrid, Symmetry,
+};
+use crate::plan::{Coupling, Plan};
+use crate::solver::{ContactSolver, Increment, IterationCallback, SolveError, SolverMemory};
+
+/// Rounds in which a shift that follows from a force and the place of the surfaces are found in alternation. A contact that sticks, or whose
+/// machine gives, moves in a round by a small part of what it moved in the one before.
+const MOST_ROUNDS: usize = 12;
+
+/// A solver, with what moves the surfaces from one increment to the next, where they move.
+pub struct Stepper<'a> {
+    /// The solver.
+    pub solver: ContactSolver<'a>,
+    /// The surfaces that move.
+    pub moving: Option<Moving>,
+}
+
+/// Surfaces that move against each other. Fields are those in front of the mirrors.
+pub struct Moving {
+    grid: SurfaceGrid,
+    symmetry: Symmetry,
+    repeats: bool,
+    motion: Motion,
+    profile: Profile,
+    /// The tangential displacement of the upper body alone, where it deforms and friction acts.
+    upper: Option<UpperBody>,
+    /// A friction law whose maps are the upper body's.
+    friction: Option<CoulombFriction>,
+    /// Whether a friction law moves.
+    moves_friction: bool,
+    /// Where the gap that the solver has is that of; `None`: nowhere any more.
+    at: Option<[f64; 2]>,
+}
+
+/// How the upper body alone responds. Bodies that are similar do not couple as a pair; each alone does.
+struct UpperBody {
+    compliance: SpectralCompliance,
+}
+
+impl UpperBody {
+    /// Of a plan whose upper body is `upper` now; `None` where it does not deform along the surface.
+    fn of(plan: &Plan, upper: &Body) -> Result<Option<Self>, SolveError> {
+        if *upper == Body::Rigid || plan.coupling == Coupling::Frictionless {
+            return Ok(None);
+        }
+        let Ok(alone) = ContactPair::new(upper.clone(), Body::Rigid) else { return Ok(None) };
+        let response = PairCompliance::all_components(plan, &alone);
+        let operators = OperatorSet { full: true, symmetry: plan.symmetry, ..OperatorSet::default() };
+        let cells = plan.symmetry.part_of(plan.grid.cells());
+        Ok(Some(Self { compliance: SpectralCompliance::new(&response, cells, operators)? }))
+    }
+
+    /// Tangential displacement of the upper surface against the lower one's direction [length], of the tractions of a state.
+    fn displacement(&mut self, state: &ContactState) -> [Array2<f64>; 2] {
+        let fields = [&state.pressure, &state.shear[0], &state.shear[1]];
+        let tractions = fields.map(|field| field.as_standard_layout().into_owned());
+        let [pressure, x, y] = tractions.each_ref().map(|field| field.as_slice().unwrap_or_default());
+        let mut moved = [(); 3].map(|()| Array2::zeros(state.pressure.dim()));
+        {
+            let [normal, along, across] =
+                moved.each_mut().map(|field| field.as_slice_mut().unwrap_or_default());
+            self.compliance.full([pressure, x, y], [normal, along, across]);
+        }
+        let [_, along, across] = moved;
+        [along, across]
+    }
+}
+
+/// Depth worn off the upper body [length] in the cells over which it lies in a state; `None` where it does not move.
+pub fn upper_wear_over_grid(plan: &Plan, state: &ContactState) -> Option<Array2<f64>> {
+    let cells = Motion::over(&plan.grid).cells(state.shift);
+    let outside = if plan.case.periodic { Outside::Repeats } else { Outside::Zero };
+    state.upper_worn_depth.as_ref().map(|depth| carried(depth, cells, outside))
+}
+
+impl Moving {
+    /// Of a plan.
+    ///
+    /// # Errors
+    /// When the operators of the upper body cannot be made.
+    pub fn of(plan: &Plan, bodies: &ContactPair) -> Result<Self, SolveError> {
+        Ok(Self {
+            grid: plan.grid,
+            symmetry: plan.symmetry,
+            repeats: plan.case.periodic,
+            motion: Motion::over(&plan.grid),
+            profile: plan.case.profile.clone(),
+            upper: UpperBody::of(plan, bodies.upper())?,
+            friction: None,
+            moves_friction: plan.case.kinematics.friction_of_upper,
+            at: None,
+        })
+    }
+
+    /// Other bodies from now on.
+    ///
+    /// # Errors
+    /// As [`Moving::of`].
+    pub fn set_bodies(&mut self, plan: &Plan, bodies: &ContactPair) -> Result<(), SolveError> {
+        self.upper = UpperBody::of(plan, bodies.upper())?;
+        Ok(())
+    }
+
+    /// Another friction law from now on, of the upper body where maps move with it.
+    pub fn set_friction(&mut self, friction: &CoulombFriction) {
+        let moves = self.moves_friction && friction.is_map();
+        self.friction = moves.then(|| friction.clone());
+        self.at = None;
+    }
+
+    /// Whether friction is another one from increment to increment.
+    pub fn moves_friction(&self) -> bool {
+        self.friction.is_some()
+    }
+
+    /// The surfaces have worn.
+    pub fn forget_gap(&mut self) {
+        self.at = None;
+    }
+
+    fn outside(&self) -> Outside {
+        if self.repeats { Outside::Repeats } else { Outside::Edge }
+    }
+
+    /// Undeformed gap where the upper body lies `cells` further along each axis.
+    fn gap_at(&self, state: &ContactState, cells: [f64; 2]) -> Array2<f64> {
+        let gap = self.profile.gap_with_upper_at(&self.grid, cells, self.repeats);
+        let mut gap = if self.symmetry.any() { self.symmetry.part(&gap) } else { gap };
+        let outside = if self.repeats { Outside::Repeats } else { Outside::Zero };
+        let upper = state.upper_worn_depth.as_ref().map(|depth| carried(depth, cells, outside));
+        for worn in state.worn_depth.iter().chain(&upper) {
+            gap += worn;
+        }
+        gap
+    }
+
+    /// Where the upper body is brought by a load, as far as that prescribes it [length].
+    fn prescribed(load: &LoadStep, shift: [f64; 2]) -> ([f64; 2], bool) {
+        use crate::model::Control::Motion;
+        let mut is_known = true;
+        let to = [0, 1].map(|axis| match load.tangential[axis] {
+            Motion(to) => to,
+            _ => {
+                is_known = false;
+                shift[axis]
+            }
+        });
+        (to, is_known)
+    }
+
+    /// Whether cells in contact lie beside cells over which nothing is known of the upper body.
+    fn touches_unknown(&self, gap: &Array2<f64>, pressure: &Array2<f64>) -> bool {
+        if self.profile.of_upper[1] == 0 || self.repeats {
+            return false;
+        }
+        let [width, depth] = self.grid.size();
+        let unknown = 0.5 * BEYOND_THE_BODY * width.hypot(depth);
+        let (nx, ny) = gap.dim();
+        pressure.indexed_iter().filter(|(_, p)| **p > 0.0).any(|((i, j), _)| {
+            let [rows, columns] =
+                [(i, nx), (j, ny)].map(|(at, count)| at.saturating_sub(1)..=(at + 1).min(count - 1));
+            rows.into_iter().any(|i| columns.clone().any(|j| gap[[i, j]] >= unknown))
+        })
+    }
+}
+
+impl<'a> Stepper<'a> {
+    /// Surfaces that stay where they are.
+    #[cfg(test)]
+    pub fn still(solver: ContactSolver<'a>) -> Self {
+        Self { solver, moving: None }
+    }
+
+    /// Whether friction is another one from increment to increment.
+    pub fn moves_friction(&self) -> bool {
+        self.moving.as_ref().is_some_and(Moving::moves_friction)
+    }
+
+    /// Another friction law from the next increment on, with the maps of a body where that lies without a shift.
+    pub fn set_friction(&mut self, friction: Cow<'a, CoulombFriction>) {
+        if let Some(moving) = &mut self.moving {
+            moving.set_friction(&friction);
+        }
+        self.solver.set_friction(friction);
+    }
+
+    /// The surfaces have worn: the gap is another one, `gap` where they stay where they are.
+    pub fn open_gap(&mut self, gap: impl FnOnce() -> Array2<f64>) {
+        match &mut self.moving {
+            None => self.solver.set_gap(gap()),
+            Some(moving) => moving.forget_gap(),
+        }
+    }
+
+    /// Other bodies from the next increment on.
+    ///
+    /// # Errors
+    /// When the operators of the upper body cannot be made.
+    pub fn set_response(
+        &mut self,
+        plan: &Plan,
+        bodies: &ContactPair,
+        compliance: PairCompliance,
+    ) -> Result<(), SolveError> {
+        self.solver.set_response(compliance.response, compliance.table);
+        self.moving.as_mut().map_or(Ok(()), |moving| moving.set_bodies(plan, bodies))
+    }
+
+    /// What the solver remembers.
+    pub fn memory(&self) -> &SolverMemory {
+        self.solver.memory()
+    }
+
+    /// The solver goes on with the memory of another one.
+    pub fn restore_memory(&mut self, memory: SolverMemory) {
+        self.solver.restore_memory(memory);
+    }
+
+    /// Solves one increment, with the surfaces where they are at its end: where a force or a spring moves the upper body, by rounds until the
+    /// place is that of the shift found.
+    ///
+    /// # Errors
+    /// As [`ContactSolver::step`]; that it does not converge, when the rounds do not.
+    pub fn step(
+        &mut self,
+        state: &ContactState,
+        load: &LoadStep,
+        watch: IterationCallback<'_>,
+    ) -> Result<Increment, SolveError> {
+        let Self { solver, moving } = self;
+        let Some(moving) = moving else { return solver.step(state, load, watch) };
+        let from = moving.motion.cells(state.shift);
+        let (to, is_known) = Moving::prescribed(load, state.shift);
+        let mut cells = moving.motion.cells(to);
+        let memory = (!is_known).then(|| solver.memory().clone());
+        let mut before = None;
+        for round in 1..=MOST_ROUNDS {
+            if moving.at != Some(cells) {
+                solver.move_gap(moving.gap_at(state, cells));
+                if let Some(friction) = &moving.friction {
+                    let outside = moving.outside();
+                    let place = |map: &Array2<f64>| carried(map, cells, outside);
+                    solver.set_friction(Cow::Owned(friction.with_maps(place)));
+                }
+                moving.at = Some(cells);
+            }
+            let by = [0, 1].map(|axis| cells[axis] - from[axis]);
+            let outside = moving.outside();
+            let along = moving.upper.as_mut().filter(|_| by != [0.0; 2]).map(|upper| {
+                let before = before.get_or_insert_with(|| upper.displacement(state));
+                before.each_ref().map(|part| carried(part, by, outside) - part)
+            });
+            solver.set_carried(along, by);
+            let solved = solver.step(state, load, watch);
+            solver.set_carried(None, [0.0; 2]);
+            let solved = solved?;
+            if moving.touches_unknown(solver.undeformed(), &solved.state.pressure) {
+                return Err(SolveError::ContactAtEdge);
+            }
+            let reached = moving.motion.cells(solved.state.shift);
+            // Rounded to a hundredth, two places may take turns.
+            let off = (0..2).map(|axis| (reached[axis] - cells[axis]).abs()).fold(0.0, f64::max);
+            if is_known || off < 0.015 {
+                return Ok(solved);
+            }
+            if round == MOST_ROUNDS {
+                return Err(SolveError::NotConverged { reached: off, iterations: round });
+            }
+            if let Some(memory) = &memory {
+                solver.restore_memory(memory.clone());
+            }
+            cells = reached;
+        }
+        Err(SolveError::NotConverged { reached: f64::INFINITY, iterations: MOST_ROUNDS })
+    }
+}
