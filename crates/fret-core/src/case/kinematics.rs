@@ -106,7 +106,7 @@ mod tests {
 
     const MOVES: (&str, &str) = ("[friction]\n", "[kinematics]\ndisplacement = \"finite\"\n[friction]\n");
 
-    fn with<'a>(text: &'a str) -> (&'a str, &'a str) {
+    fn with(text: &str) -> (&str, &str) {
         ("increments = 1\n", text)
     }
 

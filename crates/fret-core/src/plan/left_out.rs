@@ -26,6 +26,13 @@ pub struct LeftOut {
 /// Names of the fields that can be kept, with their bytes per cell.
 const FIELDS: [(&str, usize); 5] = [("pressure", 8), ("shear", 16), ("slip", 16), ("gap", 8), ("zone", 1)];
 
+/// What is skipped where surfaces that may move do not, why, and what that saves.
+const MOTION: [&str; 3] = [
+    "motion of the surfaces",
+    "the upper body moves by less than a hundredth of a cell",
+    "another gap in every increment",
+];
+
 /// The automatic simplifications of a case, of those that `leave_out` allows.
 pub fn left_out(
     case: &Case,
@@ -114,15 +121,8 @@ pub fn left_out(
             "the fraction of the grid outside the active subdomain, in every iteration",
         );
     }
-    if case.kinematics.is_finite()
-        && !(0..2).any(|axis| moves_along(case, grid, axis, None))
-        && case.start.is_none()
-    {
-        leave(
-            "motion of the surfaces",
-            "the upper body moves by less than a hundredth of a cell",
-            "another gap in every increment",
-        );
+    if stays(case, grid) {
+        leave(MOTION[0], MOTION[1], MOTION[2]);
     }
     if single_precision {
         leave(
@@ -138,6 +138,13 @@ pub fn left_out(
         leave("subsurface stress", "the case has no table [stress]", "its operators, depth by depth");
     }
     list
+}
+
+/// Whether surfaces that may move do not.
+fn stays(case: &Case, grid: &SurfaceGrid) -> bool {
+    case.kinematics.is_finite()
+        && case.start.is_none()
+        && !(0..2).any(|axis| moves_along(case, grid, axis, None))
 }
 
 /// The fields that are not kept, and what they would take.

@@ -150,9 +150,10 @@ impl Moving {
     fn prescribed(load: &LoadStep, shift: [f64; 2]) -> ([f64; 2], bool) {
         use crate::model::Control::Motion;
         let mut is_known = true;
-        let to = [0, 1].map(|axis| match load.tangential[axis] {
-            Motion(to) => to,
-            _ => {
+        let to = [0, 1].map(|axis| {
+            if let Motion(to) = load.tangential[axis] {
+                to
+            } else {
                 is_known = false;
                 shift[axis]
             }

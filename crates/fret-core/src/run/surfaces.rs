@@ -40,7 +40,7 @@ pub struct Block {
 
 impl Block {
     /// Takes the wear of a body off its depth.
-    fn take(&mut self, worn: wear::Block, depth: &mut Option<Array2<f64>>) {
+    fn take(&mut self, worn: &wear::Block, depth: &mut Option<Array2<f64>>) {
         self.through = self.through.or(worn.through);
         self.coating_through = match (self.coating_through, worn.coating_through) {
             (Some(one), Some(other)) if other.1 < one.1 => Some(other),
@@ -146,7 +146,7 @@ impl Surfaces {
             [(wearing.as_mut(), &mut state.worn_depth), (upper.as_deref_mut(), &mut state.upper_worn_depth)];
         for (wearing, depth) in bodies {
             if let Some(wearing) = wearing {
-                block.take(wearing.block(depth.as_ref(), block.cycles), depth);
+                block.take(&wearing.block(depth.as_ref(), block.cycles), depth);
             }
         }
         if let (Some(evolving), Some(slipped)) = (evolving, &mut state.accumulated) {
