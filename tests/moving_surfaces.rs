@@ -257,27 +257,6 @@ fn moving_surfaces_in_gross_slip_dissipate_force_times_way() {
     }
 }
 
-/// A ball held at an approach: the flat becomes its groove, of the volume `pi R d^2 + 8/3 s d sqrt(2 R d)`.
-#[test]
-#[ignore = "long: thousands of cycles until nothing presses at the ends of the stroke"]
-fn a_flat_wears_to_the_groove_of_a_ball() {
-    let (stroke, radius, depth) = (0.3, 100.0, 2e-3);
-    let grid = "cells = [40, 28]\nsize = [2.2, 1.54]";
-    let history = cut(grid, &format!("[profile.sphere]\nradius = {radius}"), stroke, depth, 5000);
-    let ([lower, _], _) = scars(&history);
-    let volume = lower.sum() * history.grid.cell_area();
-    let exact = PI * radius * depth * depth + 8.0 / 3.0 * stroke * depth * (2.0 * radius * depth).sqrt();
-    println!(
-        "groove of a ball: {} computed cycles, depth {:+.2} %, volume {:+.2} %",
-        history.cycles.len(),
-        100.0 * (lower.iter().copied().fold(0.0, f64::max) / depth - 1.0),
-        100.0 * (volume / exact - 1.0)
-    );
-    assert!((volume / exact - 1.0).abs() < 0.01, "{}", volume / exact);
-    // symmetric in y to the bit, since half of it was computed
-    assert_eq!(lower.row(20), lower.row(20).slice(ndarray::s![..;-1]));
-}
-
 /// A rigid ball slides over an elastic flat to the left; seen from the flat, that is the upper body and slides over the ball to the right. The
 /// displacement that the elastic body has before moves with it then.
 #[test]
