@@ -4,9 +4,10 @@ use ndarray::Axis;
 
 use serde::{Deserialize, Serialize};
 
+use super::loaded::is_loaded;
 use super::moving::moves_along;
 use super::simplification::{LeaveOut, Simplification};
-use super::symmetry::{is_loaded, is_stretched, is_twisted};
+use super::symmetry::{is_stretched, is_twisted};
 use crate::case::{Case, Stage};
 use crate::kernel::PairResponse;
 use crate::model::{AccumulatedSlip, Body, ContactState, SurfaceGrid, Symmetry};

@@ -3,6 +3,7 @@
 mod advance;
 mod extent;
 mod left_out;
+mod loaded;
 mod memory;
 mod moving;
 mod precision;

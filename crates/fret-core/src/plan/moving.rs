@@ -1,6 +1,6 @@
 //! Whether the surfaces of a case move against each other by more than a hundredth of a cell, and how much room that takes.
 
-use super::symmetry::is_loaded;
+use super::loaded::is_loaded;
 use crate::case::{Case, walk};
 use crate::model::{ContactState, Control, Motion, SurfaceGrid};
 

@@ -1,8 +1,9 @@
 //! Whether a scene and its loads are their own mirror image, so that a half or a quarter of the grid stands for the whole.
 
+use super::loaded::{asks_for_something, is_loaded};
 use super::moving::moves_along;
 use crate::case::Case;
-use crate::model::{BulkCompliance, ContactState, Control, SurfaceGrid, Symmetry};
+use crate::model::{BulkCompliance, ContactState, SurfaceGrid, Symmetry};
 use crate::solver::Coupling;
 
 /// Along fewer cells a mirror saves nothing.
@@ -52,16 +53,6 @@ pub fn symmetry(
     Symmetry { odd_shear: [kept(0), kept(1)] }
 }
 
-/// Whether the start or any stage asks for a tangential force or motion along an axis (0: x, 1: y) other than none.
-pub fn is_loaded(case: &Case, axis: usize, start: Option<&ContactState>) -> bool {
-    let held = case.start.map(|loads| loads.tangential[axis]);
-    if held.is_some_and(asks_for_something) || start.is_some_and(|state| state.shift[axis] != 0.0) {
-        return true;
-    }
-    let mut controls = case.stages.iter().filter_map(|stage| stage.tangential[axis].as_ref());
-    controls.any(|control| !control.path().is_zero())
-}
-
 /// Whether bulk stresses move the surfaces along an axis (0: x, 1: y) against each other.
 pub fn is_stretched(case: &Case, axis: usize, start: Option<&ContactState>) -> bool {
     let strains = BulkCompliance::of(&case.bodies, case.is_line());
@@ -77,8 +68,4 @@ pub fn is_twisted(case: &Case, start: Option<&ContactState>) -> bool {
     case.stages.iter().any(|stage| stage.twist.is_some())
         || case.start.is_some_and(|loads| asks_for_something(loads.twist))
         || start.is_some_and(|state| state.twist != 0.0)
-}
-
-fn asks_for_something(control: Control) -> bool {
-    control.value() != 0.0
 }
