@@ -1,4 +1,5 @@
-//! Histories in few increments against many: after coarse indentations, on rays, in phase, with pauses. Random ones beside references of 480 increments (`tests/golden/random_histories.json`).
+//! Histories in few increments against many: after coarse indentations, on rays, in phase, with pauses. Random ones beside
+//! references of 480 increments (`tests/golden/random_histories.json`).
 
 use fret_core::history::History;
 use fret_validation::random_histories::{End, RandomHistory};
