@@ -71,7 +71,7 @@ fn a_rough_surface_that_slides_is_at_each_place_what_it_is_there() {
     let frictionless = |text: String| text.replace("coefficient = 0.3", "coefficient = 0.0");
     let loads =
         "[[load]]\nnormal_force = 3e-3\nincrements = 1\n[[load]]\nshift = [0.2, 0.0]\nincrements = 8\n";
-    let slid = solved_with(&frictionless(rough(CELLS, FINITE, loads)), &[heights.clone()]);
+    let slid = solved_with(&frictionless(rough(CELLS, FINITE, loads)), std::slice::from_ref(&heights));
     let at = |index: usize| (index as f64 - (CELLS as f64 - 1.0) / 2.0) * 0.05;
     for step in [2, 4, 5, 8] {
         let by = 0.025 * step as f64;
@@ -85,7 +85,7 @@ fn a_rough_surface_that_slides_is_at_each_place_what_it_is_there() {
         let (found, expected) = (fields.pressure.as_ref().unwrap(), &fresh.state.pressure);
         let most = expected.iter().copied().fold(0.0, f64::max);
         let off = (found - expected).iter().fold(0.0_f64, |most, p| most.max(p.abs())) / most;
-        println!("rough, moved by {} half cells: pressure off by {off:.1e} of the largest", step);
+        println!("rough, moved by {step} half cells: pressure off by {off:.1e} of the largest");
         // Ripples of 18 cells between cells: (pi/18)^2/2 of their height at the most, which is a hundredth of the approach's.
         assert!(off < if step % 2 == 0 { 1e-7 } else { 0.02 }, "{step}: {off:e}");
     }

@@ -210,7 +210,7 @@ fn holes_and_broken_words_of_a_scan_are_refused_with_their_place() {
         refused(
             SCAN,
             &one("scan", broken(word)),
-            &["line 4, column 16", word, "not measured", "interpolate_undefined_data"],
+            &["line 4, column 16", word, "not measured", "harmonic"],
         );
     }
     for word in ["1.#INF", "inf", "1e400"] {

@@ -41,7 +41,7 @@ fn a_tilted_parabola_touches_to_the_side() {
         );
         run(&text).unwrap()
     };
-    let pairs = [
+    let pairs = vec![
         (line(""), line(&format!("tilt = {slope:e}\n")), [5, 0], 1e-4),
         (line(""), line(&format!("tilt_moment = {:e}\n", 1e-4 * 5e-3)), [5, 0], 1e-4),
         (sphere(""), sphere(&format!("tilt = [{:e}, 0.0]\n", -slope)), [-5, 0], 1e-6),

@@ -50,7 +50,7 @@ pub struct Plan<C = Case> {
     /// The one axis (0: x, 1: y) along which shear acts, where the other part vanishes.
     pub along: Option<usize>,
     /// Whether the gap is that of surfaces that move against each other.
-    #[serde(skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "is_false")]
     pub moves: bool,
     /// Mirrors of scene and loads, in front of which the solver works.
     pub symmetry: Symmetry,

@@ -263,9 +263,11 @@ impl<'a> Stepper<'a> {
                 let before = before.get_or_insert_with(|| upper.displacement(state));
                 before.each_ref().map(|part| carried(part, by, outside) - part)
             });
-            solver.set_carried(along, by);
+            let moves = by != [0.0; 2];
+            let moved = moves.then(|| moving.gap_at(state, cells) - moving.gap_at(state, from));
+            solver.set_carried(along, moved, by);
             let solved = solver.step(state, load, watch);
-            solver.set_carried(None, [0.0; 2]);
+            solver.set_carried(None, None, [0.0; 2]);
             let solved = solved?;
             if moving.touches_unknown(solver.undeformed(), &solved.state.pressure) {
                 return Err(SolveError::ContactAtEdge);

@@ -225,7 +225,6 @@ impl ContactSolver<'_> {
         increment: &Increment,
     ) {
         let pauses = self.pauses(load);
-        self.moved = None;
         let last = self.memory.last.take();
         let mut drift = Drift::default();
         if let (true, Some(last)) = (pauses, &last) {

@@ -105,7 +105,7 @@ pub struct ContactSolver<'a> {
     /// What moving surfaces add to the displacement before the next increment [length], and the cells that the contact may move by in it.
     carried: Option<[Array2<f64>; 2]>,
     travel: usize,
-    /// By how much moving surfaces have changed the gap since the last increment [length].
+    /// By how much moving surfaces change the gap before deformation in the next increment [length].
     moved: Option<Array2<f64>>,
 }
 
@@ -247,11 +247,6 @@ impl<'a> ContactSolver<'a> {
     /// Goes on with the undeformed gap [length] of surfaces that have moved: the displacements known so far, which are those of the
     /// tractions, still hold.
     pub fn move_gap(&mut self, undeformed: Array2<f64>) {
-        let mut change = &undeformed - self.level.as_ref().unwrap_or(&self.undeformed);
-        if let Some(moved) = &self.moved {
-            change += moved;
-        }
-        self.moved = Some(change);
         self.undeformed = undeformed;
         self.coarse = None;
         let tilt = std::mem::take(&mut self.tilt);
@@ -260,9 +255,15 @@ impl<'a> ContactSolver<'a> {
     }
 
     /// What surfaces that move by `cells` along each axis in the next increments add to the tangential displacement before [length], shape of the
-    /// grid: displacements that were elsewhere in the state before.
-    pub fn set_carried(&mut self, carried: Option<[Array2<f64>; 2]>, cells: [f64; 2]) {
+    /// grid: displacements that were elsewhere in the state before; and by how much they have changed the gap before deformation since then.
+    pub fn set_carried(
+        &mut self,
+        carried: Option<[Array2<f64>; 2]>,
+        moved: Option<Array2<f64>>,
+        cells: [f64; 2],
+    ) {
         self.carried = carried;
+        self.moved = moved;
         self.travel = cells[0].abs().max(cells[1].abs()).ceil() as usize;
     }
 
