@@ -207,11 +207,7 @@ fn holes_and_broken_words_of_a_scan_are_refused_with_their_place() {
         good.replacen(line, &row, 1)
     };
     for word in ["1.#QNAN", "-1.#IND", "NaN", "BAD", "***", "#N/A"] {
-        refused(
-            SCAN,
-            &one("scan", broken(word)),
-            &["line 4, column 16", word, "not measured", "harmonic"],
-        );
+        refused(SCAN, &one("scan", broken(word)), &["line 4, column 16", word, "not measured", "harmonic"]);
     }
     for word in ["1.#INF", "inf", "1e400"] {
         refused(SCAN, &one("scan", broken(word)), &["line 4, column 16", word, "is no finite number"]);

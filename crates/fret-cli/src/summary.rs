@@ -288,7 +288,7 @@ impl Summary<'_> {
             "wall_s": self.wall_s,
             "threads": self.threads,
             "results": self.folder.display().to_string(),
-            "methods": crate::methods::of_plan(&self.plan.to_json()),
+            "methods": crate::methods::of_plan(self.plan),
             "error_bars": self.estimate.map(|estimate| estimate.to_json(|stage| self.stage_name(stage).to_owned())),
         })
     }

@@ -216,7 +216,7 @@ impl Preparation {
         } else if failure.is_none() && !quiet {
             terminal::answer(&summary.table())?;
             if self.verbose {
-                terminal::answer(&format!("\nfor the methods section:\n{}", of_plan(&self.plan.to_json())))?;
+                terminal::answer(&format!("\nfor the methods section:\n{}", of_plan(&self.plan)))?;
             }
         }
         match &failure {

@@ -64,7 +64,7 @@ pub fn chapter(view: &Overview<'_>) -> Markup {
     ];
     let record = &view.results.record;
     let (version, commit) = (&record.version, Some(record.commit.as_str()));
-    let methods = paragraph(&view.results.plan().to_json(), version, commit);
+    let methods = paragraph(view.results.plan(), version, commit);
     html! {
         section {
             h2 { "For the methods section" }
