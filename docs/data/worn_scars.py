@@ -1,7 +1,6 @@
 """Worn scars beside measured ones: a cylinder and a ball in gross slip, and the closed forms of a finite stroke.
 
-Lengths in mm, forces in N. Profiles stay where they are, unless they are asked to move with their bodies; the closed
-forms say what a finite stroke changes.
+Lengths in mm, forces in N. Profiles stay where they are in the program; the closed forms say what motion changes.
 """
 
 import csv
@@ -54,13 +53,8 @@ FLAT, CYLINDER = 2.9e-8, 1.9e-8
 """Archard coefficients of McColl's flat and cylinder [1/MPa]."""
 
 
-def mccoll(
-    cells: int, friction: float = 0.9, jump: int = 3, increments: int = 16, moving: bool = False
-) -> fretting.History:
-    """Wear a steel cylinder of R = 6 mm and a flat for 18 000 cycles of +-25 um under 18.5 N/mm.
-
-    `moving`: the surface of the cylinder moves with it.
-    """
+def mccoll(cells: int, friction: float = 0.9, jump: int = 3, increments: int = 16) -> fretting.History:
+    """Wear a steel cylinder of R = 6 mm and a flat for 18 000 cycles of +-25 um under 18.5 N/mm."""
     return fretting.run(
         {
             "grid": {"cells": cells, "size": 0.7, "datum": 6.0},
@@ -68,7 +62,6 @@ def mccoll(
             "lower": {"substrate": {**STEEL, "wear_coefficient": FLAT}},
             "profile": {"cylinder": {"radius": 6.0, "axis": "y"}},
             "friction": {"coefficient": friction},
-            "kinematics": {"displacement": "finite" if moving else "small"},
             "wear": {"law": "archard", "every": jump, "largest_step": 1.0},
             "load": [
                 {"normal_force": 18.5, "increments": 8, "ramp": "square"},
@@ -79,10 +72,8 @@ def mccoll(
     )
 
 
-def mccoll_scar(history: fretting.History, moving: bool = False) -> tuple[Any, Any]:
-    """Return places [mm] and depth [um] of the flat's scar: its own, or its fraction of the depth of both bodies."""
-    if moving:
-        return history.x, 1e3 * history.field("lower_worn_depth")
+def mccoll_scar(history: fretting.History) -> tuple[Any, Any]:
+    """Return places [mm] and depth [um] of the flat's scar: its fraction of the wear depth of both bodies."""
     return history.x, 1e3 * history.field("worn_depth") * FLAT / (FLAT + CYLINDER)
 
 

@@ -54,8 +54,9 @@ def whole_case(shown: str) -> dict[str, Any]:
         part["load"] = [*rest["load"], *stages]
     if "map" in part.get("friction", {}):
         rest.pop("friction")
-    if "substrate" in part.get("upper", {}):
-        rest["upper"] = {}
+    for body in ("upper", "lower"):
+        if "substrate" in part.get(body, {}):
+            rest[body] = {}
     return {**rest, **part, **{body: {**rest[body], **part.get(body, {})} for body in ("upper", "lower")}}
 
 
