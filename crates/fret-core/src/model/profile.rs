@@ -84,7 +84,7 @@ impl Profile {
     }
 
     /// The undeformed gap where the upper body lies `cells` further along each axis, counted from where it touches first without that: its
-    /// shapes are taken at their places, its heights carried (see [`carried`]). Where nothing is known of them the gap is that without a
+    /// shapes are taken at their places, its heights carried. Where nothing is known of them the gap is that without a
     /// body. `repeats`: the surfaces do.
     pub fn gap_with_upper_at(&self, grid: &SurfaceGrid, cells: [f64; 2], repeats: bool) -> Array2<f64> {
         if cells == [0.0; 2] {
