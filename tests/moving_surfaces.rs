@@ -307,7 +307,7 @@ fn who_moves_is_a_matter_of_the_point_of_view() {
     assert!(largest < 1e-6, "{largest:e}");
 }
 
-/// McColl, Ding and Leen (2004): a steel cylinder of R = 6 mm wears a flat for 18 000 cycles of +-25 um under 18.5 N/mm; nothing is fitted
+/// A published test of 2004 (`tests/golden/experiments/README.md`): a steel cylinder of R = 6 mm wears a flat for 18 000 cycles of +-25 um under 18.5 N/mm; nothing is fitted
 /// here. Beside finite elements whose surfaces move (Llavori, `tests/golden/experiments`): depth within 3 %, half-width at a tenth of the depth
 /// within 6 %, area within 5 %: what is left between two programs, one of which moves a mesh.
 #[test]
