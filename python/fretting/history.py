@@ -4,7 +4,7 @@ import json
 import os
 import shutil
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, Protocol, Self
+from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -12,7 +12,8 @@ import numpy.typing as npt
 from fretting import _core, _dataset, _notebook, fatigue, heat, plot, stress
 from fretting._arguments import checked, of_kind, whole
 from fretting._arrays import Reals
-from fretting._meaning import FIELD_NAMES, VECTORS, FieldName, VectorName, in_units, unit
+from fretting._meaning import FIELD_NAMES, VECTORS, FieldName, VectorName
+from fretting._table import Copied, Kept, Table
 from fretting.cycles import Columns, columns
 from fretting.errors import Fact, UnreadableError
 
@@ -22,42 +23,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from fretting.case_types import FatigueConstants
-
-
-class Table(dict[str, npt.NDArray[Any]]):
-    """Columns by name; an unknown name raises a KeyError that lists the known ones."""
-
-    def __missing__(self, name: object) -> npt.NDArray[Any]:
-        """Refuse a name."""
-        if name in FIELD_NAMES:
-            raise KeyError(f"{name!r} is a field, a number per cell: history.field({name!r}, increment) has it")
-        raise KeyError(
-            f"no column {name!r}; columns are: {', '.join(self)}; fields (history.field): {', '.join(FIELD_NAMES)}"
-        )
-
-
-class _Kept(Protocol):
-    """Where the fields come from: the compiled module, or a copy that went through another process."""
-
-    def kept_increments(self) -> list[int]: ...
-    def kept_fields(self, increment: int) -> list[str]: ...
-    def field(self, name: str, increment: int) -> npt.NDArray[Any]: ...
-
-
-class _Copied:
-    """Fields as plain arrays."""
-
-    def __init__(self, fields: dict[int, dict[str, npt.NDArray[Any]]]) -> None:
-        self.fields = fields
-
-    def kept_increments(self) -> list[int]:
-        return list(self.fields)
-
-    def kept_fields(self, increment: int) -> list[str]:
-        return list(self.fields.get(increment, {}))
-
-    def field(self, name: str, increment: int) -> npt.NDArray[Any]:
-        return self.fields[increment][name].copy()
 
 
 class History:
@@ -142,7 +107,7 @@ class History:
     error_bars: dict[str, Any] | None
 
     _folder: Path | None
-    _kept: _Kept
+    _kept: Kept
     _bodies: str
     _residual_stress: str
     _spacing: tuple[float, float]
@@ -183,7 +148,7 @@ class History:
             increment: {name: self._kept.field(name, increment) for name in self._kept.kept_fields(increment)}
             for increment in self.kept_increments
         }
-        return {**self.__dict__, "_kept": _Copied(kept), "_folder": None}
+        return {**self.__dict__, "_kept": Copied(kept), "_folder": None}
 
     def __copy__(self) -> Self:
         """Return a history that shares what this one holds."""
@@ -776,51 +741,15 @@ class History:
         """Animate the loop beside a field; arguments and answer of :func:`fretting.plot.animation`."""
         return plot.animation(self, field, along=along, stage=stage)
 
-    def _facts(self) -> list[tuple[str, str]]:
-        """Return what a person wants to know first."""
-        cells = "a line contact of " * self.is_line + " x ".join(map(str, self.shape))
-        facts = [("stages", ", ".join(self.stages)), ("increments", str(len(self))), ("cells", cells)]
-        if not self.finished:
-            facts.append(("not the whole history", ": ".join(filter(None, (self.status, self.message)))))
-        if not len(self):
-            return facts
-        last = {name: column[-1] for name, column in self.increments.items()}
-
-        def told(name: str) -> str:
-            kind = in_units(unit(name), self._units) if self._units else ""
-            return f"{last[name]:.6g} {kind}".rstrip()
-
-        facts += [
-            ("sliding condition at the end", last["regime"].replace("_", " ")),
-            ("normal force", told("normal_force")),
-            ("max pressure", told("max_pressure")),
-            ("contact area", told("contact_area")),
-            ("dissipated energy", told("dissipated_energy")),
-            *(
-                [("worn volume", told("worn_volume")), ("max wear depth", told("max_worn_depth"))]
-                if last["worn_volume"] > 0.0
-                else []
-            ),
-            ("worst residual", f"{self.increments['residual'].max():.1e}"),
-        ]
-        done = self.cycles
-        if len(done["cycle"]):
-            ratio, regime = done["energy_ratio"][-1], done["regime"][-1]
-            facts.append((f"last of {done['last_cycle'][-1]} cycles", f"{regime.replace('_', ' ')}, ratio {ratio:.3g}"))
-        facts += [("warning", f"{fact['message']}; {fact['help']}") for fact in self.warnings]
-        kept = self.kept_increments
-        fields = ", ".join(self._kept.kept_fields(kept[-1])) if kept else "none"
-        return [*facts, (f"fields of {len(kept)} increments", fields)]
-
     def __repr__(self) -> str:
         """Sizes, the last increment, and what is kept."""
         cells = " x ".join(map(str, self.shape)) + " cells" + " of a line contact" * self.is_line
         head = f"History: {len(self)} increments, {cells}, stages: {', '.join(self.stages)}"
-        return "\n".join([head, *(f"  {name}: {value}" for name, value in self._facts()[3:])])
+        return "\n".join([head, *(f"  {name}: {value}" for name, value in _notebook.facts(self)[3:])])
 
     def _repr_html_(self) -> str:
         """Return the same as a table, for notebooks."""
-        return _notebook.html_table("fretting.History", self._facts())
+        return _notebook.html_table("fretting.History", _notebook.facts(self))
 
 
 def _listed(numbers: list[int]) -> str:
