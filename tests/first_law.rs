@@ -16,7 +16,7 @@ fn keeps(name: &str, text: &str) -> History {
     history
 }
 
-/// Points and lines, coated and unlike bodies, torsion, tilt, bulk stress, pauses, sliding; both rules.
+/// Point and line contacts, coated and dissimilar bodies, torsion, tilt, bulk stress, pauses, sliding; both rules.
 #[test]
 fn random_histories_keep_the_first_law() {
     (0..40_u64).into_par_iter().for_each(|seed| {

@@ -1,5 +1,5 @@
-//! Histories of loads drawn at random, each as a case for any number of increments: points and lines, bare and coated, like and unlike
-//! bodies; loops, turning forces, torsion, changing normal force in and out of phase, rays, tilt, bulk stress, pauses, coarse pressing.
+//! Histories of loads drawn at random, each as a case for any number of increments: point and line contacts, bare and coated, similar and dissimilar
+//! bodies; loops, rotating forces, torsion, changing normal force in and out of phase, rays, tilt, bulk stress, pauses, coarse pressing.
 
 use std::f64::consts::PI;
 use std::fmt::Write;
