@@ -50,6 +50,14 @@ pub(super) fn hole(heights: &Array2<f64>) -> Option<([usize; 2], f64, [f64; 2])>
     None
 }
 
+/// The same heights with NaN in place of all numbers that stand for a cell without a measurement.
+pub(super) fn without_marks(mut heights: Array2<f64>) -> Array2<f64> {
+    while let Some((_, mark, _)) = hole(&heights) {
+        heights.mapv_inplace(|height| if height == mark { f64::NAN } else { height });
+    }
+    heights
+}
+
 fn is_huge(value: f64) -> bool {
     value.abs() >= HUGE
 }

@@ -98,7 +98,7 @@ impl NumbersError {
         match self {
             Self::Word { why: NoNumber::Hole, .. } => HOLES,
             Self::Word { why: NoNumber::Other, .. } => {
-                "lines of words begin with #, %, !, ; or //; cells without a measurement must be filled in before"
+                "lines of words begin with #, %, !, ; or //; heights without a measurement are filled with fill = \"harmonic\" beside the file"
             }
             Self::DecimalComma { .. } => {
                 "write decimal points; or decimal commas, with semicolons or tabs between the numbers"

@@ -280,6 +280,32 @@ fn texts_have_holes_heads_and_marks() {
     ] {
         assert_eq!(rows(text).unwrap(), right, "{text:?}");
     }
+    // numbers that stand for no measurement: whatever is done to the heights, in a list of points too
+    let marked = b"1 2 3 4\n1 -32768 3 4\n1 2 3 4\n1 2 3 4\n";
+    let points: String = (0..16)
+        .map(|k| {
+            format!(
+                "{} {} {}\n",
+                0.5 * f64::from(k / 4),
+                0.5 * f64::from(k % 4),
+                if k == 5 { -9999.0 } else { 1.0 }
+            )
+        })
+        .collect();
+    for (words, text) in
+        [("size = [2.0, 2.0]\nlong_cutoff = 0.8", &marked[..]), ("resample = \"linear\"", points.as_bytes())]
+    {
+        let error = scanned(words, text, None).unwrap_err();
+        assert!(
+            error.contains("1 of 16 points have no measurement, the first at [1, 1]"),
+            "{words}: {error}"
+        );
+    }
+    let filled = scanned("fill = \"harmonic\"", points.as_bytes(), None).unwrap();
+    assert!(filled.profile.heights[0].depths().iter().all(|depth| depth.abs() < 1e-12));
+    let lost = points.replacen("0.5 0.5 -9999", "nan 0.5 1", 1);
+    let error = scanned("fill = \"harmonic\"", lost.as_bytes(), None).unwrap_err();
+    assert!(error.contains("a point at a place that is no number"), "{error}");
     let error = scanned("", b"1 2 3 4\n1 nan 3 4\n1 2 3 4\n1 2 3 4\n", None).unwrap_err();
     assert!(error.contains("line 2, column 2") && error.contains("fill = \"harmonic\""), "{error}");
     let error = scanned("", b"1 x 3 4\n1 2 3 4\n", None).unwrap_err();
@@ -365,6 +391,17 @@ fn uneven_pairs_lie_in_line_contacts() {
     let case = Case::from_toml_with(&text, "case.toml", Attachments::files(&bytes)).unwrap();
     for (cell, depth) in case.profile.heights[0].depths().iter().enumerate() {
         assert!((depth - 0.4 * (15.0 - cell as f64)).abs() < 1e-13, "{cell} {depth}");
+    }
+    // a point without a measurement between points at uneven places has no neighbours at one distance
+    for (words, message) in [
+        ("", "1 of 5 points have no measurement"),
+        ("fill = \"harmonic\"\n", "fill: the points of this line scan are not evenly spaced"),
+    ] {
+        let text = text.replacen("resample", &format!("{words}resample"), 1);
+        let bytes = |_: &str| Ok(b"x;z\n1,5;3\n0;0\n0,2;-9999\n4;8\n3,1;6,2\n".to_vec());
+        let error =
+            Case::from_toml_with(&text, "case.toml", Attachments::files(&bytes)).unwrap_err().to_string();
+        assert!(error.contains(message), "{error}");
     }
 }
 

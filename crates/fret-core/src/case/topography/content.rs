@@ -12,7 +12,7 @@ use crate::case::numbers::{Head, NumbersError, head, letters, numbers, numbers_w
 /// What to do about points without a measurement.
 pub(in crate::case) const FILL: &str = "fill = \"harmonic\" fills points without a measurement from those around them; or fill them in the program of the instrument";
 /// What to do about a file that only a library can read.
-const INSTRUMENTS: &str = "files of instruments (sur, x3p, plu, opd, al3d and some 30 more) are read in Python and by its command `fret`: \
+const INSTRUMENTS: &str = "files of instruments (sur, x3p, plu, opd, al3d and some 40 more) are read in Python and by its command `fret`: \
                            pip install 'fretting[instruments]'; a .npy file or a text of numbers is read everywhere";
 
 /// Endings of names that instruments give: such files are never taken for plain numbers, also where they are texts, as they state units.

@@ -6,7 +6,7 @@ use super::keys::ScanSizeFile;
 use super::question::{Measured, Question, SPACING};
 use super::scan::Scan;
 use crate::case::arrays::Layout;
-use crate::case::holes::hole;
+use crate::case::holes::without_marks;
 use crate::case::judge::Judge;
 use crate::case::known_units::{conversion, known_units};
 use crate::case::numbers::Head;
@@ -98,6 +98,16 @@ impl Question<'_> {
             );
         }
         let is_line = self.cells.count[1] == 1;
+        let places = if array.ncols() == 3 { 2 } else { usize::from(is_line && array.ncols() == 2) };
+        if array.columns().into_iter().take(places).flatten().any(|place| !place.is_finite())
+            && array.nrows() > 3
+        {
+            return self.refuse(
+                judge,
+                "a point at a place that is no number",
+                "leave such points out of the file",
+            );
+        }
         let given = self.given_size(judge)?.or(Self::size_of_head(judge, head, layout.rows));
         if is_line && array.ncols() == 2 && array.nrows() > 3 && points::own_cells(&array.view()).is_none() {
             return self.uneven(judge, &array, given, layout.unit);
@@ -146,7 +156,7 @@ impl Question<'_> {
                 }
             };
             let size = own_size.map(|side| side * unit);
-            let heights = heights.mapv(|height| height * layout.unit);
+            let heights = without_marks(heights).mapv(|height| height * layout.unit);
             return Some(Measured { heights, size: Some(size), places: None, read_by: None });
         }
         let mut heights = match layout.rows {
@@ -156,12 +166,7 @@ impl Question<'_> {
         if is_line && heights.nrows() == 1 {
             heights = heights.reversed_axes().as_standard_layout().into_owned();
         }
-        if self.keys.fills() {
-            while let Some((_, mark, _)) = hole(&heights) {
-                heights.mapv_inplace(|height| if height == mark { f64::NAN } else { height });
-            }
-        }
-        heights.mapv_inplace(|height| height * layout.unit);
+        let heights = without_marks(heights).mapv(|height| height * layout.unit);
         Some(Measured { heights, size: given, places: None, read_by: None })
     }
 
@@ -200,8 +205,9 @@ impl Question<'_> {
                 return self.refuse(judge, &why, "leave size out, or correct it");
             }
         };
+        let heights = Array2::from_shape_fn((points.len(), 1), |(point, _)| points[point][1]);
         Some(Measured {
-            heights: Array2::from_shape_fn((points.len(), 1), |(point, _)| points[point][1] * unit),
+            heights: without_marks(heights).mapv(|height| height * unit),
             size: Some([range * factor; 2]),
             places: Some(points.iter().map(|point| (point[0] - first) * factor).collect()),
             read_by: None,

@@ -10,6 +10,7 @@ use crate::case::judge::Judge;
 
 /// How far the spacing of points that are to be the cells may differ from that of the cells.
 pub(super) const SPACING: f64 = 1e-3;
+
 /// Measured heights in the units of the case.
 pub(in crate::case) struct Measured {
     /// Heights `[x, y]`; NaN where nothing was measured.
@@ -19,6 +20,13 @@ pub(in crate::case) struct Measured {
     /// Places of the points of a line scan that are not evenly spaced.
     pub(super) places: Option<Vec<f64>>,
     pub(super) read_by: Option<String>,
+}
+
+impl Measured {
+    /// Numbers of points along x and y.
+    pub(super) fn points(&self) -> [usize; 2] {
+        [self.heights.nrows(), self.heights.ncols()]
+    }
 }
 
 /// What heights are judged with.

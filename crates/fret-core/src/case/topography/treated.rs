@@ -17,11 +17,11 @@ impl Question<'_> {
     pub fn treated(
         &self,
         judge: &mut Judge,
-        measured: Measured,
+        mut measured: Measured,
         detrend: Detrend,
     ) -> Option<(Array2<f64>, Treatment)> {
-        let Measured { mut heights, mut size, places, read_by } = measured;
-        let (nx, ny) = heights.dim();
+        let [nx, ny] = measured.points();
+        let (read_by, size) = (measured.read_by.take(), measured.size);
         let mut record = Treatment { read_by, points: [nx, ny], size, ..Treatment::default() };
         if self.cells.count[1] == 1 && ny > 1 {
             return self.refuse(
@@ -30,43 +30,47 @@ impl Question<'_> {
                 "a line contact takes a line scan; a surface needs two numbers of cells",
             );
         }
-        self.filled(judge, &mut heights, size, &mut record)?;
-        let uneven = ["cut", "short_cutoff and long_cutoff"];
-        let are_asked =
-            [self.keys.cut.is_some(), self.keys.short_cutoff.is_some() || self.keys.long_cutoff.is_some()];
-        if let (Some(what), true) = (
-            uneven.into_iter().zip(are_asked).find(|(_, asked)| *asked).map(|(what, _)| what),
-            places.is_some(),
-        ) {
-            return self.refuse(
-                judge,
-                &format!("{what}: the points of this line scan are not evenly spaced"),
-                "resample = \"linear\" alone takes such points",
-            );
-        }
+        self.check_uneven(judge, &measured)?;
+        self.filled(judge, &mut measured, &mut record)?;
         if let Some(cut) = &self.keys.cut {
-            let sides = self.size_for(judge, "cut", size)?;
-            size = Some(self.cut(judge, &mut heights, sides, (&cut.value, cut.span()))?);
+            self.cut(judge, &mut measured, (&cut.value, cut.span()))?;
             record.cut = Some(cut.value.clone());
         }
-        detrend.remove_from(&mut heights);
-        self.filtered(judge, &mut heights, size, &mut record)?;
+        detrend.remove_from(&mut measured.heights);
+        self.filtered(judge, &mut measured, &mut record)?;
         if self.keys.resamples() {
             record.resample = Some("linear".to_owned());
-            heights = self.resampled(judge, &heights, size, places)?;
+            measured.heights = self.resampled(judge, &measured)?;
         } else {
-            self.are_cells(judge, &heights, size, places.is_some())?;
+            self.are_cells(judge, &measured)?;
         }
-        Some((heights, record))
+        Some((measured.heights, record))
     }
 
-    fn filled(
-        &self,
-        judge: &mut Judge,
-        heights: &mut Array2<f64>,
-        size: Option<[f64; 2]>,
-        record: &mut Treatment,
-    ) -> Option<()> {
+    /// Refuses what needs even points, of points that are not.
+    fn check_uneven(&self, judge: &mut Judge, measured: &Measured) -> Option<()> {
+        if measured.places.is_none() {
+            return Some(());
+        }
+        let why = |what: &str| format!("{what}: the points of this line scan are not evenly spaced");
+        let has_holes = measured.heights.iter().any(|height| height.is_nan());
+        if has_holes && self.keys.fills() {
+            let help = "leave points without a measurement out of the file: resample = \"linear\" goes straight from one point to the next";
+            return self.refuse(judge, &why("fill"), help);
+        }
+        let filters = self.keys.short_cutoff.is_some() || self.keys.long_cutoff.is_some();
+        for (what, is_asked) in [("cut", self.keys.cut.is_some()), ("short_cutoff and long_cutoff", filters)]
+        {
+            if is_asked {
+                return self.refuse(judge, &why(what), "resample = \"linear\" alone takes such points");
+            }
+        }
+        Some(())
+    }
+
+    fn filled(&self, judge: &mut Judge, measured: &mut Measured, record: &mut Treatment) -> Option<()> {
+        let [nx, ny] = measured.points();
+        let heights = &mut measured.heights;
         let first = heights.indexed_iter().find(|(_, height)| height.is_nan()).map(|(at, _)| at);
         let Some((i, j)) = first else { return Some(()) };
         let count = heights.iter().filter(|height| height.is_nan()).count();
@@ -77,12 +81,13 @@ impl Question<'_> {
             return self.refuse(judge, &why, FILL);
         }
         record.fill = Some("harmonic".to_owned());
-        let (nx, ny) = heights.dim();
+        // Points that are not resampled are the cells.
+        let size = measured.size.or(self.cells.size.filter(|_| !self.keys.resamples()));
         let spacing = size.map_or([1.0; 2], |size| [size[0] / nx as f64, size[1] / ny as f64]);
         let ratio = if ny > 1 { (spacing[0] / spacing[1]).powi(2) } else { 1.0 };
         match fill::fill(heights, [1.0, ratio]) {
-            Ok(_) => Some(()),
-            Err(why) => self.refuse(judge, &why, "measure again, or choose another channel"),
+            Ok(()) => Some(()),
+            Err(why) => self.refuse(judge, why, "measure again, or choose another channel"),
         }
     }
 
@@ -92,15 +97,15 @@ impl Question<'_> {
         size.or_else(|| self.refuse(judge, &why(), "size = [x, y] [length], of a line scan one length"))
     }
 
-    /// Keeps a part of the scan; its size.
+    /// Keeps a part of the scan.
     fn cut(
         &self,
         judge: &mut Judge,
-        heights: &mut Array2<f64>,
-        size: [f64; 2],
+        measured: &mut Measured,
         (cut, span): (&[[f64; 2]], Range<usize>),
-    ) -> Option<[f64; 2]> {
-        let counts = [heights.nrows(), heights.ncols()];
+    ) -> Option<()> {
+        let size = self.size_for(judge, "cut", measured.size)?;
+        let counts = measured.points();
         let axes = if counts[1] == 1 { 1 } else { 2 };
         if cut.len() != axes {
             let message = format!("{}.cut: {} pairs of from and to, wanted {axes}", self.place, cut.len());
@@ -129,17 +134,12 @@ impl Question<'_> {
             sides[axis] = spacing * (end - first);
         }
         let [x, y] = kept;
-        *heights = heights.slice(s![x, y]).to_owned();
-        Some(sides)
+        measured.heights = measured.heights.slice(s![x, y]).to_owned();
+        measured.size = Some(sides);
+        Some(())
     }
 
-    fn filtered(
-        &self,
-        judge: &mut Judge,
-        heights: &mut Array2<f64>,
-        size: Option<[f64; 2]>,
-        record: &mut Treatment,
-    ) -> Option<()> {
+    fn filtered(&self, judge: &mut Judge, measured: &mut Measured, record: &mut Treatment) -> Option<()> {
         let (short, long) = (self.keys.short_cutoff.as_ref(), self.keys.long_cutoff.as_ref());
         if let (Some(short), Some(long)) = (short, long)
             && short.value >= long.value
@@ -149,8 +149,9 @@ impl Question<'_> {
         }
         for (cutoff, is_short) in [(short, true), (long, false)] {
             let Some(cutoff) = cutoff else { continue };
-            let size = self.size_for(judge, "short_cutoff and long_cutoff", size)?;
-            let counts = [heights.nrows(), heights.ncols()];
+            let size = self.size_for(judge, "short_cutoff and long_cutoff", measured.size)?;
+            let counts = measured.points();
+            let heights = &mut measured.heights;
             let points = [0, 1].map(|axis| cutoff.value * counts[axis] as f64 / size[axis]);
             let smooth = gaussian::smoothed(heights, points);
             if is_short {
@@ -165,32 +166,20 @@ impl Question<'_> {
     }
 
     /// Heights of the cells of the grid, which lies in the middle of the scan.
-    fn resampled(
-        &self,
-        judge: &mut Judge,
-        heights: &Array2<f64>,
-        size: Option<[f64; 2]>,
-        places: Option<Vec<f64>>,
-    ) -> Option<Array2<f64>> {
-        let size = self.size_for(judge, "resample", size)?;
+    fn resampled(&self, judge: &mut Judge, measured: &Measured) -> Option<Array2<f64>> {
+        let size = self.size_for(judge, "resample", measured.size)?;
         let Some(grid) = self.cells.size else {
             return self.refuse(judge, "resample: grid.size must be given", "grid.size = [x, y]");
         };
         let axes = if self.cells.count[1] == 1 { 1 } else { 2 };
         if (0..axes).any(|axis| grid[axis] > size[axis] * (1.0 + SPACING)) {
-            let shown = |sides: [f64; 2]| {
-                sides[..axes]
-                    .iter()
-                    .map(|&side| points::figures(side).to_string())
-                    .collect::<Vec<_>>()
-                    .join(" x ")
-            };
-            let why = format!("the scan is {}, and the grid {}", shown(size), shown(grid));
+            let why = format!("the scan is {}, and the grid {}", shown(size, axes), shown(grid, axes));
             return self.refuse(judge, &why, "a grid that lies inside the scan");
         }
-        let counts = [heights.nrows(), heights.ncols()];
-        let is_uneven = places.is_some();
-        let x = places.unwrap_or_else(|| resample::even(counts[0], size[0] / counts[0] as f64));
+        let counts = measured.points();
+        let is_uneven = measured.places.is_some();
+        let x =
+            measured.places.clone().unwrap_or_else(|| resample::even(counts[0], size[0] / counts[0] as f64));
         let y = resample::even(counts[1], size[1] / counts[1] as f64);
         let begin = if is_uneven { x.first().copied().unwrap_or_default() } else { 0.0 };
         let window = |axis: usize, begin: f64| {
@@ -199,40 +188,38 @@ impl Question<'_> {
             from..from + side
         };
         let window = [window(0, begin), window(1, 0.0)];
-        Some(resample::resampled(heights, [&x, &y], &window, self.cells.count))
+        Some(resample::resampled(&measured.heights, [&x, &y], &window, self.cells.count))
     }
 
     /// Refuses points that are not the cells of the grid.
-    fn are_cells(
-        &self,
-        judge: &mut Judge,
-        heights: &Array2<f64>,
-        size: Option<[f64; 2]>,
-        uneven: bool,
-    ) -> Option<()> {
+    fn are_cells(&self, judge: &mut Judge, measured: &Measured) -> Option<()> {
         let Cells { count, size: grid } = self.cells;
-        let points = [heights.nrows(), heights.ncols()];
+        let (points, size) = (measured.points(), measured.size);
         let axes = if count[1] == 1 { 1 } else { 2 };
-        let shown = |values: Vec<String>| values[..axes].join(" x ");
-        let of =
-            |sides: [f64; 2]| shown(sides.iter().map(|&side| points::figures(side).to_string()).collect());
-        let extent = size.map(|size| format!(" on {}", of(size))).unwrap_or_default();
-        let counted = |counts: [usize; 2]| shown(counts.iter().map(usize::to_string).collect());
+        let extent = size.map(|size| format!(" on {}", shown(size, axes))).unwrap_or_default();
+        let counted = |counts: [usize; 2]| shown(counts.map(|count| count as f64), axes);
         let help = "resample = \"linear\" takes the grid from the middle of the scan, or give the grid the points of the scan";
         if points != count {
             let why =
                 format!("{} points{extent}, but the grid has {} cells", counted(points), counted(count));
             return self.refuse(judge, &why, help);
         }
-        if uneven {
+        if measured.places.is_some() {
             return self.refuse(judge, "the points of this line scan are not evenly spaced", help);
         }
         if let (Some(size), Some(grid)) = (size, grid)
             && (0..axes).any(|axis| (size[axis] / grid[axis] - 1.0).abs() > SPACING)
         {
-            let why = format!("the scan is {}, and the grid {}", of(size), of(grid));
+            let why = format!("the scan is {}, and the grid {}", shown(size, axes), shown(grid, axes));
             return self.refuse(judge, &why, help);
         }
         Some(())
     }
+}
+
+/// Numbers along the axes, as `a x b`.
+fn shown(numbers: [f64; 2], axes: usize) -> String {
+    let words: Vec<String> =
+        numbers[..axes].iter().map(|&number| points::figures(number).to_string()).collect();
+    words.join(" x ")
 }
