@@ -5,8 +5,16 @@ use std::path::Path;
 use std::process::Command;
 
 /// What the program is made of, seen from this crate.
-const SOURCES: [&str; 6] =
-    ["src", "build.rs", "../fret-cli/src", "../fret-core/src", "../fret-fft/src", "../../Cargo.lock"];
+const SOURCES: [&str; 8] = [
+    "src",
+    "build.rs",
+    "../fret-cli/src",
+    "../fret-core/src",
+    "../fret-fft/src",
+    "../fret-py/src",
+    "../fret-table/src",
+    "../../Cargo.lock",
+];
 
 fn main() {
     let (commit, is_clean) = packaged().or_else(checked_out).unwrap_or(("unknown".to_owned(), None));

@@ -48,7 +48,7 @@ pub enum Verb {
         /// Which one: ball-on-flat, coated, cylinder, rig-log, wear, rough, indentation
         template: Option<String>,
         /// The file to write [default: the name with .toml]
-        #[arg(long, short, value_name = "FILE")]
+        #[arg(long, short, value_name = "FILE", requires = "template")]
         out: Option<PathBuf>,
     },
     /// Explain a warning: what it means for the numbers, and what to do; without a name the list of them

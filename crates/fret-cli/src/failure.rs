@@ -52,6 +52,9 @@ pub struct FailureRecord {
     pub status: String,
     /// Why.
     pub message: String,
+    /// A way out, of a call that is refused.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub help: Option<String>,
     /// The mistakes of a case, where it is one that is refused.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mistakes: Option<Vec<MistakeRecord>>,
@@ -170,7 +173,8 @@ impl Failure {
             }
             _ => (self.message(), None),
         };
-        FailureRecord { status: self.status().to_owned(), message, mistakes }
+        let help = if let Self::Call(_, help) = self { Some(help.clone()) } else { None };
+        FailureRecord { status: self.status().to_owned(), message, help, mistakes }
     }
 }
 

@@ -13,7 +13,9 @@ use serde_json::{Value, json};
 use crate::estimate::Estimate;
 use crate::failure::Failure;
 use crate::figures::{LONGEST_TITLE, counted, duration, figure, figure_beside, shortened};
+use crate::methods::paragraph;
 use fret_results::Tally;
+use fret_results::commit::COMMIT;
 
 /// Stages that stand side by side in the table.
 const MOST_COLUMNS: usize = 4;
@@ -288,9 +290,14 @@ impl Summary<'_> {
             "wall_s": self.wall_s,
             "threads": self.threads,
             "results": self.folder.display().to_string(),
-            "methods": crate::methods::of_plan(self.plan),
+            "methods": failure.is_none().then(|| self.methods()),
             "error_bars": self.estimate.map(|estimate| estimate.to_json(|stage| self.stage_name(stage).to_owned())),
         })
+    }
+
+    /// A paragraph for the methods section of a paper.
+    pub fn methods(&self) -> String {
+        paragraph(self.plan, self.tally.solved, (env!("CARGO_PKG_VERSION"), COMMIT))
     }
 
     fn stage_name(&self, stage: usize) -> &str {

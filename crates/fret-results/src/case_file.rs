@@ -36,16 +36,26 @@ pub struct Beside {
 }
 
 impl CaseFile {
-    /// Reads a case file; `-` is standard input, where relative names start at the current folder.
+    /// Reads the case that a command is asked about; `-` is standard input, where relative names start at the current folder.
+    ///
+    /// # Errors
+    /// When it cannot be read, or is no text; when nothing comes from standard input.
+    pub fn asked(path: &Path) -> Result<Self, CaseError> {
+        if path != Path::new("-") {
+            return Self::read(path);
+        }
+        let text = text(Path::new("stdin"), io::stdin().lock())?;
+        if text.trim().is_empty() {
+            return Err(CaseError::plain("stdin", "nothing came from standard input"));
+        }
+        Ok(Self::of_text("stdin", text, Beside { folder: PathBuf::new(), contents: Vec::new() }))
+    }
+
+    /// Reads a case file.
     ///
     /// # Errors
     /// When the file cannot be read, or is no text.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
-        if path == Path::new("-") {
-            let path = Path::new("stdin");
-            let text = text(path, io::stdin().lock())?;
-            return Ok(Self::of_text("stdin", text, Beside { folder: PathBuf::new(), contents: Vec::new() }));
-        }
         let file = File::open(path)
             .map_err(|error| CaseError::plain(&path.display().to_string(), why(path, &error)))?;
         Ok(Self { path: path.to_owned(), text: text(path, file)?, beside: None })

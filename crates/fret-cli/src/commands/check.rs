@@ -13,7 +13,7 @@ use fret_results::{CaseFile, planned_from};
 
 /// Judges a case.
 pub fn check(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failure> {
-    let case_file = CaseFile::read(path)?;
+    let case_file = CaseFile::asked(path)?;
     let plan = planned_from(&case_file, from)?;
     if as_json {
         let answer = json!({

@@ -7,20 +7,26 @@ use crate::failure::Failure;
 use crate::terminal;
 
 /// Where all of them stand in the manual.
-const PAGE: &str = "reference/messages/#warnings";
+const PAGE: &str = "docs/reference/messages.md#warnings";
+
+/// So many names are told at most where none fits.
+const MOST_NEAR: usize = 4;
 
 /// Tells what is known of a warning, or lists all.
 pub fn explain(name: Option<&str>, as_json: bool) -> Result<(), Failure> {
     let Some(name) = name else { return list(as_json) };
     let asked = plain(name);
-    let concern = Concern::ALL.into_iter().find(|concern| {
-        // by its name, or by the words that a message begins with
-        plain(concern.name()) == asked || plain(concern.quantity()) == asked
-    });
+    // by its name, or by the words that its message begins with, if those are of one alone
+    let begins = |concern: &Concern| !asked.is_empty() && plain(concern.quantity()).starts_with(&asked);
+    let begun: Vec<Concern> = Concern::ALL.into_iter().filter(begins).collect();
+    let named = Concern::ALL
+        .into_iter()
+        .find(|concern| [concern.name(), concern.quantity()].map(plain).contains(&asked));
+    let concern = named.or(if let [one] = begun[..] { Some(one) } else { None });
     let Some(concern) = concern else {
-        let near = Concern::ALL.into_iter().filter(|concern| plain(concern.name()).contains(&asked));
-        let near: Vec<&str> = near.map(Concern::name).collect();
-        let help = if near.is_empty() || asked.is_empty() {
+        let is_near = |concern: &Concern| begun.contains(concern) || plain(concern.name()).contains(&asked);
+        let near: Vec<&str> = Concern::ALL.into_iter().filter(is_near).map(Concern::name).collect();
+        let help = if near.is_empty() || near.len() > MOST_NEAR {
             "`fret explain` lists them all".to_owned()
         } else {
             format!("did you mean {}?", near.join(", "))

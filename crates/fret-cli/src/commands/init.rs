@@ -13,6 +13,10 @@ use crate::terminal;
 /// Writes a template, or tells which there are.
 pub fn init(name: Option<&str>, out: Option<&Path>, as_json: bool) -> Result<(), Failure> {
     let Some(name) = name else { return list(as_json) };
+    if out == Some(Path::new("-")) {
+        let help = "name a file; a template may have other files beside it";
+        return Err(Failure::Call("a case to begin with is written to a file".to_owned(), help.to_owned()));
+    }
     let template = TEMPLATES.iter().find(|template| template.name == name).ok_or_else(|| {
         let names: Vec<&str> = TEMPLATES.iter().map(|template| template.name).collect();
         Failure::Call(format!("no template is called {name:?}"), format!("there are: {}", names.join(", ")))
@@ -22,7 +26,8 @@ pub fn init(name: Option<&str>, out: Option<&Path>, as_json: bool) -> Result<(),
     if as_json {
         return terminal::answer_in_json(&json!({ "status": "written", "template": name, "files": written }));
     }
-    let path = path.display();
+    let shown = path.display().to_string();
+    let path = if shown.contains(char::is_whitespace) { format!("\"{shown}\"") } else { shown };
     terminal::answer(&format!(
         "written: {}\nnext: fret check {path}; fret plan {path}; fret run {path}",
         written.join(", ")
@@ -47,7 +52,12 @@ fn write(template: &Template, path: &Path) -> Result<Vec<String>, Failure> {
     let beside = template.beside.iter().map(|&(name, content)| (folder.join(name), content));
     let files: Vec<(PathBuf, &str)> = [(path.to_owned(), template.case)].into_iter().chain(beside).collect();
     if let Some((there, _)) = files.iter().find(|(path, _)| path.exists()) {
-        let help = "choose another name with --out FILE, or move it away".to_owned();
+        let help = if there == path {
+            "choose another name with --out FILE, or move it away"
+        } else {
+            "the case names it: choose another folder with --out DIR/FILE, or move it away"
+        };
+        let help = help.to_owned();
         return Err(Failure::Call(format!("{}: exists already", there.display()), help));
     }
     if !folder.as_os_str().is_empty() {

@@ -37,7 +37,7 @@ struct Answer<'a> {
 
 /// Plans a case and tells the plan.
 pub fn plan(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failure> {
-    let plan = planned_from(&CaseFile::read(path)?, from)?;
+    let plan = planned_from(&CaseFile::asked(path)?, from)?;
     let lacking = memory::check(plan.memory_bytes).err();
     // A run that cannot be begun takes no time, and a part of it may be too much.
     let expected = match lacking {

@@ -43,7 +43,7 @@ pub struct Wanted {
 impl Wanted {
     /// What the arguments of the command ask for.
     pub fn by(arguments: &RunArguments) -> Result<Self, Failure> {
-        let case_file = CaseFile::read(&arguments.case)?;
+        let case_file = CaseFile::asked(&arguments.case)?;
         let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(case_file.stem()));
         Ok(Self {
             folder,

@@ -17,7 +17,7 @@ use crate::defect;
 use crate::estimate::{Estimate, NoBars};
 use crate::failure::{Failure, Told};
 use crate::interrupt::{self, Listener};
-use crate::methods::of_plan;
+use crate::methods::paragraph;
 use crate::progress::Progress;
 use crate::summary::Summary;
 use crate::terminal;
@@ -143,6 +143,11 @@ impl Preparation {
         } else if !quiet {
             let bars = estimate.map(|estimate| estimate.table(|stage| self.stage_name(stage)) + "\n\n");
             terminal::answer(&(bars.unwrap_or_default() + &message))?;
+            if let (true, Some(end)) = (self.verbose, &record.end) {
+                let by = (record.version.as_str(), record.commit.as_str());
+                let methods = paragraph(&record.plan, end.totals.increments, by);
+                terminal::answer(&format!("\nfor the methods section:\n{methods}"))?;
+            }
         }
         Ok(())
     }
@@ -216,7 +221,7 @@ impl Preparation {
         } else if failure.is_none() && !quiet {
             terminal::answer(&summary.table())?;
             if self.verbose {
-                terminal::answer(&format!("\nfor the methods section:\n{}", of_plan(&self.plan)))?;
+                terminal::answer(&format!("\nfor the methods section:\n{}", summary.methods()))?;
             }
         }
         match &failure {

@@ -35,7 +35,7 @@ const TIMES: usize = 3;
 
 /// Studies a case.
 pub fn study(arguments: &StudyArguments, as_json: bool) -> Result<(), Failure> {
-    let case_file = CaseFile::read(&arguments.case)?;
+    let case_file = CaseFile::asked(&arguments.case)?;
     let plan = case_file.planned()?;
     let question = Question::new(arguments, &plan)?;
     let pool = threads::pool(threads::asked(arguments.threads))?;

@@ -63,12 +63,15 @@ pub fn chapter(view: &Overview<'_>) -> Markup {
         (pressed.is_some(), JOHNSON),
     ];
     let record = &view.results.record;
-    let (version, commit) = (&record.version, Some(record.commit.as_str()));
-    let methods = paragraph(view.results.plan(), version, commit);
+    let version = &record.version;
+    let solved = record.end.as_ref().filter(|_| record.status == "solved").map(|end| end.totals.increments);
+    let methods = solved.map(|solved| paragraph(view.results.plan(), solved, (version, &record.commit)));
     html! {
-        section {
-            h2 { "For the methods section" }
-            p { (methods) }
+        @if let Some(methods) = methods {
+            section {
+                h2 { "For the methods section" }
+                p { (methods) }
+            }
         }
         section {
             h2 { "To cite" }

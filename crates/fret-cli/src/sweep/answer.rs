@@ -33,7 +33,8 @@ const SOLVED: &str = "solved";
 impl Answer {
     /// The answer of a solved point, of which so many first increments were solved together with other points.
     pub fn solved(history: &History, common: usize) -> Self {
-        let told = FailureRecord { status: SOLVED.to_owned(), message: String::new(), mistakes: None };
+        let told =
+            FailureRecord { status: SOLVED.to_owned(), message: String::new(), help: None, mistakes: None };
         let numbers = Numbers {
             increments_in_common: common,
             end: history.steps.last().cloned(),

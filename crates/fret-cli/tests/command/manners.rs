@@ -48,6 +48,12 @@ fn every_template_is_a_case_that_runs() {
     }
     let unknown = bench.fret(&["init", "ball"]);
     assert!(unknown.err.contains("there are: ball-on-flat, coated"), "{}", unknown.err);
+    std::fs::create_dir(bench.folder.join("beside")).unwrap();
+    bench.file("beside/rough-heights.txt", "1 2\n");
+    let beside = bench.fret(&["init", "rough", "-o", "beside/mine.toml"]);
+    assert!(beside.err.contains("choose another folder"), "{}", beside.err);
+    assert!(bench.fret(&["init", "wear", "-o", "-"]).err.contains("written to a file"));
+    assert_eq!(bench.fret(&["init", "-o", "x.toml"]).code, Some(2));
     let list = bench.fret(&["init"]).out;
     assert!(list.contains("ball-on-flat") && list.contains("indentation"), "{list}");
 }
@@ -75,6 +81,12 @@ fn every_warning_is_explained() {
     let wrong = bench.fret(&["explain", "waves"]);
     assert_eq!(wrong.code, Some(1));
     assert!(bench.fret(&["explain", "wave"]).err.contains("did you mean few_cells_per_wave?"));
+    // the first words of its message, where they are of one alone
+    assert!(bench.fret(&["explain", "cells in the"]).out.starts_with("few_cells\n"));
+    assert!(bench.fret(&["explain", "a"]).err.contains("lists them all"));
+    // programs get the way out, too
+    let wrong: Value = serde_json::from_str(&bench.fret(&["explain", "waves", "--json"]).out).unwrap();
+    assert_eq!(wrong["help"], "`fret explain` lists them all");
 }
 
 #[test]
@@ -86,6 +98,13 @@ fn a_case_comes_from_standard_input() {
     let (code, _, err) = piped(&bench, &["check", "-"], &SPHERE.replace("radius = 10e-3", "radius = -1.0"));
     assert_eq!(code, Some(1));
     assert!(err.contains("stdin:14:10"), "{err}");
+    let (code, _, err) = piped(&bench, &["check", "-"], "\n");
+    assert_eq!(code, Some(1));
+    assert!(err.contains("nothing came from standard input"), "{err}");
+    // what another file names is a file
+    bench.file("sweep.toml", "base = \"-\"\n[axes]\n\"friction.coefficient\" = [0.1, 0.2]\n");
+    let (code, _, err) = piped(&bench, &["sweep", "sweep.toml"], SPHERE);
+    assert_eq!(code, Some(1), "{err}");
     let (code, _, err) = piped(&bench, &["run", "-", "-q", "-o", "piped"], SPHERE);
     assert_eq!(code, Some(0), "{err}");
     bench.file("case.toml", SPHERE).fret(&["run", "case.toml", "--quiet", "--out", "named"]);

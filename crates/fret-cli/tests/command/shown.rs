@@ -221,6 +221,8 @@ fn what_a_run_starts_from_is_asked_before_a_closed_form_is_drawn() {
     let press = |more: &str| format!("[[load]]\nnormal_force = 1.0\n{more}\nincrements = 3\n");
     let rub = "[[load]]\ntangential_force = [0.05, 0.0]\nincrements = 4\n";
     assert_eq!(solve("plain", &(press("") + rub), &[]), [true, true]);
+    let moving = "[kinematics]\ndisplacement = \"finite\"\n";
+    assert_eq!(solve("moving", &(moving.to_owned() + &press("") + rub), &[]), [false, false]);
     assert_eq!(solve("flat", &press(""), &[]), [true, false]);
     assert_eq!(solve("tilted", &press("tilt = [1e-3, \"held\"]"), &[]), [false, false]);
     assert_eq!(solve("from-tilted", rub, &["--from", "tilted"]), [false, false]);

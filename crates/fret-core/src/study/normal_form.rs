@@ -1,8 +1,8 @@
 //! The frictionless contact in closed form: about which cases one speaks, and what it says under a load. Refinement studies and reports ask
 //! here.
 //!
-//! Spheres, ellipsoids, rounded and flat punches and cones, and cylinders in line contacts, on homogeneous half-spaces that do not tilt and
-//! do not wear. Coupling of pressure and shear is not asked about: under it they neglect what friction does to the pressure.
+//! Spheres, ellipsoids, rounded and flat punches and cones, and cylinders in line contacts, on homogeneous half-spaces that do not tilt, do not
+//! wear and whose surfaces stay where they are. Coupling of pressure and shear is not asked about: under it they neglect what friction does to the pressure.
 
 use std::f64::consts::PI;
 
@@ -63,7 +63,8 @@ impl NormalForm {
     pub fn of<M, H>(plan: &Plan<Case<M, H>>) -> Option<Self> {
         let case = &plan.case;
         let was_worn = plan.start.as_ref().is_some_and(|start| start.solved.state.worn_depth.is_some());
-        let changes = case.wear.is_some() || was_worn || case.tilts(0) || case.tilts(1);
+        let moves = case.kinematics.is_finite();
+        let changes = case.wear.is_some() || was_worn || moves || case.tilts(0) || case.tilts(1);
         if changes || case.periodic || !case.beyond.is_body() {
             return None;
         }
