@@ -91,6 +91,26 @@ fn wear_and_friction_that_changes_keep_the_first_law() {
 }
 
 /// The bodies part in one increment: all that was stored is given back, dissipated or told.
+/// Bodies that move against each other and both wear, driven by a displacement and by a force, over fractions of cells: slopes work under the
+/// pressure, and the displacement that the upper body carries along under the shear.
+#[test]
+fn bodies_that_move_keep_the_first_law() {
+    let case = |kinematics: &str, stages: &str| {
+        format!(
+            "[grid]\ncells = 96\nsize = 0.6\ndatum = 6.0\n[upper]\nsubstrate = {{ young = 1e5, poisson = 0.2, wear_coefficient = 1e-7 }}\n\
+             [lower]\nsubstrate = {{ young = 2e5, poisson = 0.3, wear_coefficient = 1.5e-7 }}\n[profile.cylinder]\nradius = 6.0\naxis = \"y\"\n\
+             [friction]\ncoefficient = 0.6\n[solver]\ntolerance = 1e-11\n{kinematics}[wear]\nlaw = \"archard\"\n\
+             [[load]]\nnormal_force = 18.5\nincrements = 3\n[[load]]\n{stages}\n"
+        )
+    };
+    let finite = "[kinematics]\ndisplacement = \"finite\"\n";
+    let slides = "shift = [0.021, 0.0]\nincrements = 12\ncycles = 4";
+    let [moving, still] = [("moving", finite), ("still", "")]
+        .map(|(name, kinematics)| keeps(name, &case(kinematics, slides)).steps.pop().unwrap());
+    assert!(moving.wear_work > 0.1 * still.wear_work, "{moving:?}");
+    keeps("moved by a force", &case(finite, "tangential_force = [9.3, 0.0]\nincrements = 12\ncycles = 2"));
+}
+
 #[test]
 fn bodies_that_part_keep_the_first_law() {
     let sphere = sphere();

@@ -29,7 +29,7 @@ fn a_loop_after_a_coarse_indentation_is_near() {
     assert!(off[0].abs() < 9e-3 && off[1].abs() < 4e-3 && off[2].abs() < 2e-3, "{off:?}");
 }
 
-/// Like spheres without a Poisson effect whose forces grow together from nothing stick, and `shift = l mu approach`, whatever the cells: tangential
+/// Elastically similar spheres without a Poisson effect whose forces grow together from nothing stick, and `shift = l mu approach`, whatever the cells: tangential
 /// and normal response are the same. More increments err less, down to a thousandth.
 #[test]
 fn a_ray_from_nothing_errs_less_with_more_increments() {

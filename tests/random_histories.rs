@@ -222,7 +222,7 @@ impl RandomHistory {
                 stages
             }
             Kind::Sliding => {
-                // Cattaneo and Mindlin's displacement at which like spheres slide is about 1.5 mu times the approach.
+                // Cattaneo and Mindlin's displacement at which elastically similar spheres slide is about 1.5 mu times the approach.
                 let reach = self.friction * random.between(0.5, 2.0) / RADIUS;
                 let shift = |x: f64| format!("shift = [{x:e}, 0.0]\n");
                 vec![(shift(reach), 0.5), (shift(-other * reach), 0.75), (shift(reach), 0.75)]

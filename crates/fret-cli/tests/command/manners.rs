@@ -17,7 +17,8 @@ fn piped(bench: &Bench, words: &[&str], text: &str) -> (Option<i32>, String, Str
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
+    // a verb that does not read it may have ended
+    let _ = child.stdin.take().unwrap().write_all(text.as_bytes());
     let done = child.wait_with_output().unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
     (done.status.code(), text(done.stdout), text(done.stderr))
@@ -53,7 +54,7 @@ fn every_template_is_a_case_that_runs() {
     let beside = bench.fret(&["init", "rough", "-o", "beside/mine.toml"]);
     assert!(beside.err.contains("choose another folder"), "{}", beside.err);
     assert!(bench.fret(&["init", "wear", "-o", "-"]).err.contains("written to a file"));
-    assert_eq!(bench.fret(&["init", "-o", "x.toml"]).code, Some(2));
+    assert_eq!(bench.fret(&["init", "-o", "x.toml"]).code, Some(1));
     let list = bench.fret(&["init"]).out;
     assert!(list.contains("ball-on-flat") && list.contains("indentation"), "{list}");
 }

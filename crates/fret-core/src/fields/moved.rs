@@ -142,7 +142,11 @@ mod tests {
         let moved = carried(&hill(40, 20.0), [0.4, 0.0], Outside::Zero);
         let exact = hill(40, 20.4);
         let off = |i: usize| (moved[[i, 0]] - exact[[i, 0]]).abs();
-        // Its third term is that of the curvature, r (1 - r)(1 - 2 r)/12 f'' of both cells, which cancel.
-        assert!((14..19).chain(23..27).all(|i| off(i) < 0.05), "{:?}", (14..27).map(off).collect::<Vec<_>>());
+        // What is left of the curvature, r (1 - r)(1 - 2 r)/12 f'', is that of both cells and cancels: but for rounding of sums of 64.
+        assert!(
+            (14..19).chain(23..27).all(|i| off(i) < 1e-11),
+            "{:?}",
+            (14..27).map(off).collect::<Vec<_>>()
+        );
     }
 }

@@ -210,7 +210,7 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
     ),
     real(
         "external_work",
-        "work of forces, moments and bulk stresses on the contact since the start; its change is that of elastic_energy, dissipated_energy, wear_work and unresolved_energy together",
+        "work of forces, moments and bulk stresses, and of surfaces that move, on the contact since the start; its change is that of elastic_energy, dissipated_energy, wear_work and unresolved_energy together",
         WORK,
         |step| step.external_work,
     ),

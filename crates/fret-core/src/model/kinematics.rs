@@ -41,6 +41,8 @@ impl Kinematics {
 
 /// Steps to which positions of surfaces are rounded, in a cell.
 const STEPS: f64 = 100.0;
+/// A position half between two steps goes outward, whatever rounding has made of its last digits.
+const TIE: f64 = 1e-6;
 
 /// How the upper surface moves over the grid, which is fixed to the lower body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,7 +60,10 @@ impl Motion {
     /// Where the upper surface lies after a shift [length]: cells along each axis, rounded to a hundredth of a cell. Along a line contact nothing
     /// moves.
     pub fn cells(&self, shift: [f64; 2]) -> [f64; 2] {
-        let rounded = |axis: usize| (shift[axis] / self.spacing[axis] * STEPS).round() / STEPS;
+        let rounded = |axis: usize| {
+            let steps = shift[axis] / self.spacing[axis] * STEPS;
+            (steps + TIE * steps.signum()).round() / STEPS
+        };
         [rounded(0), if self.is_line { 0.0 } else { rounded(1) }]
     }
 
@@ -77,6 +82,10 @@ mod tests {
         let motion = Motion::over(&SurfaceGrid::new([8, 8], [0.1, 0.3]).unwrap());
         assert_eq!(motion.cells([0.3, -0.6]), [3.0, -2.0]);
         assert_eq!(motion.cells([0.0346, 0.001]), [0.35, 0.0]);
+        // An eighth of a cell, however it came about.
+        for eighth in [0.0125, 0.0125 + 2e-18, 0.0125 - 2e-18, (0.3 + 0.0125) - 0.3] {
+            assert_eq!(motion.cells([eighth, -3.0 * eighth]), [0.13, -0.13]);
+        }
         assert!(motion.is_none([4.9e-4, -1e-3]) && !motion.is_none([6e-4, 0.0]));
         let line = Motion::over(&SurfaceGrid::line(8, 0.1).unwrap());
         assert_eq!(line.cells([0.1, 0.1]), [1.0, 0.0]);

@@ -74,7 +74,8 @@ pub struct ContactState {
     /// times relative displacements, in a line contact relative to the datum.
     pub elastic_energy: f64,
     /// Work of the forces, the moments and the bulk stresses on the contact since the start [force x length]: means of both ends of an
-    /// increment times the change of the motions; with wear that of all cycles that computed ones stand for, which store nothing.
+    /// increment times the change of the motions; of surfaces that move also the work of their slopes under the pressure and of the
+    /// displacements that they carry along under the shear; with wear that of all cycles that computed ones stand for, which store nothing.
     pub external_work: f64,
     /// Energy that has gone with what wore off since the start [force x length]: work of the pressure over the depth worn under it, and
     /// what thinner bodies store less.

@@ -5,7 +5,6 @@ use ndarray::Axis;
 use serde::{Deserialize, Serialize};
 
 use super::loaded::is_loaded;
-use super::moving::moves_along;
 use super::simplification::{LeaveOut, Simplification};
 use super::symmetry::{is_stretched, is_twisted};
 use crate::case::{Case, Stage};
@@ -30,7 +29,7 @@ const FIELDS: [(&str, usize); 5] = [("pressure", 8), ("shear", 16), ("slip", 16)
 /// What is skipped where surfaces that may move do not, why, and what that saves.
 const MOTION: [&str; 3] = [
     "motion of the surfaces",
-    "the upper body moves by less than a hundredth of a cell",
+    "the upper body moves by less than half a hundredth of a cell",
     "another gap in every increment",
 ];
 
@@ -39,7 +38,7 @@ pub fn left_out(
     case: &Case,
     grid: &SurfaceGrid,
     coupling: Coupling,
-    (along, symmetry, single_precision): (Option<usize>, Symmetry, bool),
+    (along, symmetry, single_precision, moves): (Option<usize>, Symmetry, bool, bool),
     leave_out: LeaveOut,
 ) -> Vec<LeftOut> {
     let mut list = Vec::new();
@@ -85,7 +84,7 @@ pub fn left_out(
             &format!("every tangential iteration of the first {increments} increments"),
         );
     }
-    if coupling != Coupling::Coupled && leave_out.takes(Simplification::Pressure) {
+    if coupling != Coupling::Coupled && !moves && leave_out.takes(Simplification::Pressure) {
         let increments = increments_at_one_load(case);
         if increments > 0 {
             leave(
@@ -122,7 +121,7 @@ pub fn left_out(
             "the fraction of the grid outside the active subdomain, in every iteration",
         );
     }
-    if stays(case, grid) {
+    if case.kinematics.is_finite() && !moves {
         leave(MOTION[0], MOTION[1], MOTION[2]);
     }
     if single_precision {
@@ -139,13 +138,6 @@ pub fn left_out(
         leave("subsurface stress", "the case has no table [stress]", "its operators, depth by depth");
     }
     list
-}
-
-/// Whether surfaces that may move do not.
-fn stays(case: &Case, grid: &SurfaceGrid) -> bool {
-    case.kinematics.is_finite()
-        && case.start.is_none()
-        && !(0..2).any(|axis| moves_along(case, grid, axis, None))
 }
 
 /// The fields that are not kept, and what they would take.
@@ -191,7 +183,8 @@ pub fn one_way(
         _ => return None,
     };
     let uncoupled = coupling == Coupling::Uncoupled;
-    let straight = uncoupled && response.is_straight();
+    // An upper body that moves carries its own displacement along, which has a part across.
+    let straight = uncoupled && response.is_straight() && !case.kinematics.is_finite();
     // Pressure moves the surface across a line contact, never along it.
     let line = |axis: usize| is_endless(case, grid, 1 - axis) || uncoupled && is_endless(case, grid, axis);
     let starts_so = start.is_none_or(|state| {

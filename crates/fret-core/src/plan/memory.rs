@@ -19,7 +19,7 @@ const EVOLVING: usize = 110;
 /// Bytes a cell of a gap that is tilted; with a prescribed moment, of places and turned gaps too.
 const TILTED: usize = 16;
 const BY_MOMENT: usize = 100;
-/// Bytes a cell of surfaces that move: the gap and the wear of each body, and in front of the mirrors the operator of the upper body.
+/// Bytes a cell of surfaces that move: the gap and the wear of each body, and with symmetry reduction the operator of the upper body.
 const MOVING: [usize; 2] = [80, 260];
 /// Bytes a cell of the tractions and slips of an increment whose stresses are looked at.
 const TRACTIONS: usize = 5 * 8;

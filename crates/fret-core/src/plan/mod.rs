@@ -181,7 +181,7 @@ impl Plan {
         let single_precision = leave_out.takes(Simplification::Precision)
             && precision::single_precision_does(&case, &grid, &response, coupling);
         let left_out =
-            left_out::left_out(&case, &grid, coupling, (along, symmetry, single_precision), leave_out);
+            left_out::left_out(&case, &grid, coupling, (along, symmetry, single_precision, moves), leave_out);
         let increments = case.increments();
         let plan = Self {
             memory_bytes: memory::of_run(&case, &grid, coupling, symmetry),

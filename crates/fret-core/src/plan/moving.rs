@@ -1,4 +1,4 @@
-//! Whether the surfaces of a case move against each other by more than a hundredth of a cell, and how much room that takes.
+//! Whether the surfaces of a case move against each other by more than half a hundredth of a cell, and how much room that takes.
 
 use super::loaded::is_loaded;
 use crate::case::{Case, walk};

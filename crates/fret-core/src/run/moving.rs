@@ -13,11 +13,13 @@ use crate::model::{
     SurfaceGrid, Symmetry,
 };
 use crate::plan::{Coupling, Plan};
-use crate::solver::{ContactSolver, Increment, IterationCallback, SolveError, SolverMemory};
+use crate::solver::{ContactSolver, Increment, IterationCallback, SolveError, SolverMemory, Work};
 
 /// Rounds in which a shift that follows from a force and the place of the surfaces are found in alternation. A contact that sticks, or whose
 /// machine gives, moves in a round by a small part of what it moved in the one before.
 const MOST_ROUNDS: usize = 12;
+/// From this round on two places beside each other are taken for one.
+const TAKING_TURNS: usize = 4;
 
 /// A solver, with what moves the surfaces from one increment to the next, where they move.
 pub struct Stepper<'a> {
@@ -27,7 +29,7 @@ pub struct Stepper<'a> {
     pub moving: Option<Moving>,
 }
 
-/// Surfaces that move against each other. Fields are those in front of the mirrors.
+/// Surfaces that move against each other. Fields are those with symmetry reduction.
 pub struct Moving {
     grid: SurfaceGrid,
     symmetry: Symmetry,
@@ -125,11 +127,6 @@ impl Moving {
         self.friction.is_some()
     }
 
-    /// The surfaces have worn.
-    pub fn forget_gap(&mut self) {
-        self.at = None;
-    }
-
     fn outside(&self) -> Outside {
         if self.repeats { Outside::Repeats } else { Outside::Edge }
     }
@@ -201,7 +198,10 @@ impl<'a> Stepper<'a> {
     pub fn open_gap(&mut self, gap: impl FnOnce() -> Array2<f64>) {
         match &mut self.moving {
             None => self.solver.set_gap(gap()),
-            Some(moving) => moving.forget_gap(),
+            Some(moving) => {
+                moving.at = None;
+                self.solver.forget_displacements();
+            }
         }
     }
 
@@ -246,10 +246,15 @@ impl<'a> Stepper<'a> {
         let (to, is_known) = Moving::prescribed(load, state.shift);
         let mut cells = moving.motion.cells(to);
         let memory = (!is_known).then(|| solver.memory().clone());
-        let mut before = None;
-        for round in 1..=MOST_ROUNDS {
+        let gap_before = moving.gap_at(state, from);
+        let (mut before, mut work) = (None, Work::default());
+        let mut round = 1;
+        loop {
+            let by = [0, 1].map(|axis| cells[axis] - from[axis]);
+            let moves = by != [0.0; 2];
+            let gap = moves.then(|| moving.gap_at(state, cells));
             if moving.at != Some(cells) {
-                solver.move_gap(moving.gap_at(state, cells));
+                solver.move_gap(gap.as_ref().unwrap_or(&gap_before).clone());
                 if let Some(friction) = &moving.friction {
                     let outside = moving.outside();
                     let place = |map: &Array2<f64>| carried(map, cells, outside);
@@ -257,35 +262,39 @@ impl<'a> Stepper<'a> {
                 }
                 moving.at = Some(cells);
             }
-            let by = [0, 1].map(|axis| cells[axis] - from[axis]);
             let outside = moving.outside();
-            let along = moving.upper.as_mut().filter(|_| by != [0.0; 2]).map(|upper| {
-                let before = before.get_or_insert_with(|| upper.displacement(state));
+            let along = moving.upper.as_mut().filter(|_| moves).map(|upper| {
+                let before = before.get_or_insert_with(|| {
+                    work.convolutions += 1;
+                    work.full_grid_convolutions += 1.0 / moving.symmetry.copies() as f64;
+                    upper.displacement(state)
+                });
                 before.each_ref().map(|part| carried(part, by, outside) - part)
             });
-            let moves = by != [0.0; 2];
-            let moved = moves.then(|| moving.gap_at(state, cells) - moving.gap_at(state, from));
-            solver.set_carried(along, moved, by);
+            solver.set_carried(along, gap.map(|gap| gap - &gap_before), by);
             let solved = solver.step(state, load, watch);
             solver.set_carried(None, None, [0.0; 2]);
-            let solved = solved?;
+            let mut solved = solved?;
+            work += solved.work;
             if moving.touches_unknown(solver.undeformed(), &solved.state.pressure) {
                 return Err(SolveError::ContactAtEdge);
             }
             let reached = moving.motion.cells(solved.state.shift);
-            // Rounded to a hundredth, two places may take turns.
             let off = (0..2).map(|axis| (reached[axis] - cells[axis]).abs()).fold(0.0, f64::max);
-            if is_known || off < 0.015 {
+            // Rounded to a hundredth, two places may take turns.
+            let takes_turns = round >= TAKING_TURNS && off < 0.015;
+            if is_known || reached == cells || takes_turns {
+                solved.work = work;
                 return Ok(solved);
-            }
-            if round == MOST_ROUNDS {
-                return Err(SolveError::NotConverged { reached: off, iterations: round });
             }
             if let Some(memory) = &memory {
                 solver.restore_memory(memory.clone());
             }
+            if round == MOST_ROUNDS {
+                return Err(SolveError::NotConverged { reached: off, iterations: round });
+            }
+            round += 1;
             cells = reached;
         }
-        Err(SolveError::NotConverged { reached: f64::INFINITY, iterations: MOST_ROUNDS })
     }
 }

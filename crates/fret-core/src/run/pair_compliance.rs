@@ -37,7 +37,7 @@ impl PairCompliance {
         Self { response: response(plan, bodies, wanted), table: table(plan, bodies) }
     }
 
-    /// How other bodies answer on the cells of a plan's grid, with all components.
+    /// The response of other bodies on the cells of a plan's grid, with all components.
     pub fn all_components(plan: &Plan, bodies: &ContactPair) -> SurfaceResponse {
         response(plan, bodies, Components::ALL)
     }

@@ -86,10 +86,9 @@ impl IncrementProblem<'_> {
         moved
     }
 
-    /// Surfaces that move work by their slopes under the pressure, and by the displacements that they carry along under the shear.
-    ///
     /// Adds to the energies of the state after an increment in which friction `dissipated` so much and the bulk stresses did the work
-    /// `by_bulk`, both per area of a cell [pressure x length].
+    /// `by_bulk`, both per area of a cell [pressure x length]. Surfaces that
+    /// move work by their slopes under the pressure, and by the displacements that they carry along under the shear.
     pub fn account(
         &self,
         solved: &Solved,

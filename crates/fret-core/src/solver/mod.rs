@@ -232,8 +232,7 @@ impl<'a> ContactSolver<'a> {
     pub fn set_gap(&mut self, undeformed: Array2<f64>) {
         self.undeformed = undeformed;
         self.coarse = None;
-        self.memory.last = None;
-        self.memory.before = None;
+        self.forget_displacements();
         let tilt = std::mem::take(&mut self.tilt);
         self.level = None;
         self.set_tilt(tilt);
@@ -275,6 +274,11 @@ impl<'a> ContactSolver<'a> {
         self.operators = None;
         self.full_grid = None;
         self.coarse = None;
+        self.forget_displacements();
+    }
+
+    /// Surfaces or bodies are others now: the displacements known so far hold no longer.
+    pub fn forget_displacements(&mut self) {
         self.memory.last = None;
         self.memory.before = None;
     }

@@ -36,18 +36,9 @@ impl ContactSolver<'_> {
         if moment == [0.0; 2] {
             return self.solve(state, load, callback);
         }
-        let solved = self.check_carries(load, moment).and_then(|()| self.solve(state, load, callback));
-        match solved {
-            Ok(increment) if increment.outcome.contact_cells == 0 => {
-                self.set_tilt(state.tilt);
-                Err(no_tilt(moment, 0.0))
-            }
-            Err(error) => {
-                self.set_tilt(state.tilt);
-                Err(error)
-            }
-            solved => solved,
-        }
+        self.check_carries(load, moment)?;
+        let solved = self.solve(state, load, callback)?;
+        if solved.outcome.contact_cells == 0 { Err(no_tilt(moment, 0.0)) } else { Ok(solved) }
     }
 
     /// Whether the body reaches as far as the centre of a pressure with the prescribed force and `moment` [force x length].

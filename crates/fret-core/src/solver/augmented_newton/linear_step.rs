@@ -132,6 +132,9 @@ impl Equations<'_> {
         let mut pressure = contact.packed(&here.tractions.pressure);
         if let Some(tilt) = tilt {
             tilt.lift(&mut pressure, |_, p| p.max(0.0));
+            if !tilt.is_held_by(&pressure) {
+                return None;
+            }
         } else if let Some(total) = problem.normal.total {
             let missing = total - pressure.iter().sum::<f64>();
             let positive: f64 = pressure.iter().map(|p| p.max(0.0)).sum();

@@ -286,8 +286,6 @@ mod tests {
 
     use super::*;
 
-    /// A map whose numbers say where they stand, and a uniform shear strength: in a region they are those of its cells, row by row, and
-    /// packed those of the contact.
     /// Pressure that falls evenly to zero until a moment t, slip that goes on evenly: a quarter of the bound times the motion in the mean over
     /// all t, whatever its direction across the shear; of shear below the bound its work alike.
     #[test]
@@ -305,6 +303,8 @@ mod tests {
         }
     }
 
+    /// A map whose numbers say where they stand, and a uniform shear strength: in a region they are those of its cells, row by row, and
+    /// packed those of the contact.
     #[test]
     fn a_region_has_the_numbers_of_its_own_cells() {
         let map = Array2::from_shape_fn((5, 7), |(i, j)| (10 * i + j) as f64);

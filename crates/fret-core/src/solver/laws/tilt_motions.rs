@@ -24,6 +24,8 @@ pub struct TiltMotions {
     held: [bool; 3],
     /// Sums of pressure times motion that are prescribed [pressure]; zero for the others.
     sums: [f64; 3],
+    /// Products of the motions with each other, over all cells.
+    gram: [f64; 6],
 }
 
 impl TiltMotions {
@@ -40,7 +42,9 @@ impl TiltMotions {
         let (x, y) = cells.map(|cell| positions.place(cell).into()).unzip();
         let held = [total.is_some(), moment[0].is_some(), moment[1].is_some()];
         let sums = [total, moment[0], moment[1]].map(|sum| sum.unwrap_or(0.0));
-        Some(Self { places: [x, y], held, sums })
+        let mut motions = Self { places: [x, y], held, sums, gram: [0.0; 6] };
+        motions.gram = motions.gram_of((0..motions.places[0].len()).map(|_| 1.0));
+        Some(motions)
     }
 
     fn modes(&self, cell: usize) -> [f64; 3] {
@@ -63,6 +67,11 @@ impl TiltMotions {
 
     /// Amounts of the motions whose sums with weights are these; those that follow from no resultant are zero.
     fn amounts(&self, weights: impl Iterator<Item = f64>, products: [f64; 3]) -> [f64; 3] {
+        RigidMotions::solve_of(self.held, self.gram_of(weights), products)
+    }
+
+    /// Products of the motions with each other, with weights of the cells.
+    fn gram_of(&self, weights: impl Iterator<Item = f64>) -> [f64; 6] {
         let mut gram = [0.0; 6];
         for (cell, weight) in weights.enumerate().filter(|(_, weight)| *weight != 0.0) {
             let modes = self.modes(cell);
@@ -70,16 +79,16 @@ impl TiltMotions {
                 *sum += weight * modes[k] * modes[l];
             }
         }
-        RigidMotions::solve_of(self.held, gram, products)
+        gram
     }
 
-    /// Amounts of the motions nearest to a field, by least squares with weights. Found twice: a contact far from the middle has motions that are
+    /// Amounts of the motions nearest to a field, by least squares with weights, whose `gram` is known. Found twice: a contact far from the middle has motions that are
     /// nearly the same, and of a large field the digits of what is left over count.
-    fn nearest(&self, weights: &[f64], field: &[f64]) -> [f64; 3] {
+    fn nearest(&self, gram: [f64; 6], weight: impl Fn(usize) -> f64, field: &[f64]) -> [f64; 3] {
         let mut amounts = [0.0; 3];
         for _ in 0..2 {
-            let left = (0..field.len()).map(|cell| weights[cell] * (field[cell] - self.at(amounts, cell)));
-            let more = self.amounts(weights.iter().copied(), self.products(left));
+            let left = (0..field.len()).map(|cell| weight(cell) * (field[cell] - self.at(amounts, cell)));
+            let more = RigidMotions::solve_of(self.held, gram, self.products(left));
             amounts = [0, 1, 2].map(|k| amounts[k] + more[k]);
         }
         amounts
@@ -87,7 +96,7 @@ impl TiltMotions {
 
     /// Takes off a field of displacements what the motions can do to the cells of a set; zero elsewhere.
     pub fn take_off(&self, field: &mut [f64], active: &[f64]) {
-        let amounts = self.nearest(active, field);
+        let amounts = self.nearest(self.gram_of(active.iter().copied()), |cell| active[cell], field);
         for (cell, (value, active)) in field.iter_mut().zip(active).enumerate() {
             *value = active * (*value - self.at(amounts, cell));
         }
@@ -96,7 +105,7 @@ impl TiltMotions {
     /// Takes off a field of all cells what the motions can do.
     pub fn remove<N: Number>(&self, field: &mut [N]) {
         let before: Vec<f64> = field.iter().map(|value| value.to_double(1.0)).collect();
-        let amounts = self.nearest(&vec![1.0; before.len()], &before);
+        let amounts = self.nearest(self.gram, |_| 1.0, &before);
         for (cell, (value, before)) in field.iter_mut().zip(before).enumerate() {
             *value = N::of(before - self.at(amounts, cell), 1.0);
         }
@@ -112,7 +121,7 @@ impl TiltMotions {
         let heights: Vec<f64> =
             (0..cells).map(|cell| displacement[cell] + undeformed[cell] - approach).collect();
         let weights: Vec<f64> = (0..cells).map(active).collect();
-        let [_, x, y] = self.nearest(&weights, &heights);
+        let [_, x, y] = self.nearest(self.gram_of(weights.iter().copied()), |cell| weights[cell], &heights);
         ([x, y], (0..cells).map(|cell| undeformed[cell] - self.at([0.0, x, y], cell)).collect())
     }
 
