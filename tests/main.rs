@@ -35,6 +35,7 @@ mod line_contact;
 mod line_extremes;
 mod loadings;
 mod loads_of_cycles;
+mod mean_gap;
 mod misleading;
 mod moving_surfaces;
 mod mutilated_cases;

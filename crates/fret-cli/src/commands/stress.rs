@@ -7,14 +7,16 @@ use std::path::Path;
 use std::time::Instant;
 
 use fret_core::case::{Side, StressRequest};
-use fret_core::model::Body;
-use fret_core::subsurface::{StressField, automatic_depths, depth_points, survey};
+use fret_core::model::{Body, HalfSpace};
+use fret_core::subsurface::{
+    DepthPoint, LoadedSurface, StressField, Tractions, automatic_depths, depth_points, displacements, survey,
+};
 use serde_json::Value;
 
 use super::loaded_surfaces::{loaded_surfaces, reach, stopped};
 use super::stress_tables::{Answer, StressTables};
 use crate::arguments::StressArguments;
-use crate::export::volume::Volume;
+use crate::export::volume::{Field, Volume};
 use crate::failure::{Failure, Unwritten};
 use crate::interrupt;
 use crate::terminal;
@@ -24,8 +26,20 @@ use fret_results::folder_below;
 
 /// Depths chosen by `--auto`.
 const AUTOMATIC: usize = 64;
-/// Names of the fields of a volume.
-const VOLUME_FIELDS: [&str; 8] = ["xx", "yy", "zz", "xy", "xz", "yz", "von_mises", "tension"];
+/// Fields of a volume: stresses.
+const STRESSES: [Field; 8] = [
+    ("xx", "pressure"),
+    ("yy", "pressure"),
+    ("zz", "pressure"),
+    ("xy", "pressure"),
+    ("xz", "pressure"),
+    ("yz", "pressure"),
+    ("von_mises", "pressure"),
+    ("tension", "pressure"),
+];
+/// And displacements, in point contacts.
+const DISPLACEMENTS: [Field; 3] =
+    [("displacement_x", "length"), ("displacement_y", "length"), ("displacement_z", "length")];
 
 /// Computes stresses for a result folder.
 pub fn stress(arguments: &StressArguments, as_json: bool) -> Result<(), Failure> {
@@ -99,7 +113,8 @@ fn computed(folder: &Path, run: &Results, request: &StressRequest) -> Result<Ans
     let mut volume = if request.volume {
         let depths: Vec<f64> = points.iter().map(|point| point.depth).collect();
         let name = format!("volume-{:05}.vtr", surfaces.last().map_or(0, |surface| surface.increment));
-        Some(Volume::create(&place.join(name), run.grid(), &depths, &VOLUME_FIELDS, run.units())?)
+        let fields = [&STRESSES[..], if run.grid().is_line() { &[] } else { &DISPLACEMENTS }].concat();
+        Some(Volume::create(&place.join(name), run.grid(), &depths, &fields, run.units())?)
     } else {
         None
     };
@@ -127,14 +142,38 @@ fn computed(folder: &Path, run: &Results, request: &StressRequest) -> Result<Ans
         }
         return Err(stopped(folder));
     }
-    if let Some(volume) = volume {
+    if let Some(mut volume) = volume {
+        if let (false, Some(surface)) = (run.grid().is_line(), surfaces.last()) {
+            displace(&mut volume, (run, half_space), &points, surface)?;
+        }
         volume.close()?;
     }
     tables.written(&place, started.elapsed().as_secs_f64())
 }
 
+/// Displacements under a surface by its tractions, into a volume.
+fn displace(
+    volume: &mut Volume,
+    (run, half_space): (&Results, &HalfSpace),
+    points: &[DepthPoint],
+    surface: &LoadedSurface,
+) -> Result<(), Failure> {
+    let shear = surface.shear.as_ref().map(|[x, y]| [x.view(), y.view()]);
+    let tractions = Tractions { pressure: surface.pressure.view(), shear };
+    let mut unwritten = None;
+    displacements(half_space, (run.grid(), run.case().periodic), points, &tractions, |point, moved| {
+        for ((name, _), moved) in DISPLACEMENTS.iter().zip(&moved) {
+            if let Err(error) = volume.plane(name, point, |i, j| moved[[i, j]]) {
+                unwritten = Some(error);
+            }
+        }
+    })
+    .map_err(|error| Failure::Defect(format!("displacement kernels: {error}")))?;
+    unwritten.map_or(Ok(()), |error| Err(error.into()))
+}
+
 fn fill(volume: &mut Volume, point: usize, field: &StressField) -> Result<(), Unwritten> {
-    for (component, name) in VOLUME_FIELDS[..6].iter().enumerate() {
+    for (component, (name, _)) in STRESSES[..6].iter().enumerate() {
         volume.plane(name, point, |i, j| field.components[component][[i, j]])?;
     }
     volume.plane("von_mises", point, |i, j| field.at(i, j).von_mises())?;

@@ -25,8 +25,11 @@ pub struct Volume {
     start: u64,
     cells: [usize; 2],
     depths: usize,
-    names: Vec<&'static str>,
+    fields: Vec<Field>,
 }
+
+/// Name of a scalar field, and the kind of its unit.
+pub type Field = (&'static str, &'static str);
 
 impl Volume {
     /// Opens a volume over the cell centres and the given depths.
@@ -37,12 +40,12 @@ impl Volume {
         path: &Path,
         grid: &SurfaceGrid,
         depths: &[f64],
-        names: &[&'static str],
+        fields: &[Field],
         units: Option<&Units>,
     ) -> Result<Self, Unwritten> {
         let part = part_of(path);
         let cells = grid.cells();
-        let (file, start) = begin(&part, grid, depths, names, units).map_err(Unwritten::at(path))?;
+        let (file, start) = begin(&part, grid, depths, fields, units).map_err(Unwritten::at(path))?;
         Ok(Self {
             path: path.to_owned(),
             part,
@@ -50,7 +53,7 @@ impl Volume {
             start,
             cells,
             depths: depths.len(),
-            names: names.to_vec(),
+            fields: fields.to_vec(),
         })
     }
 
@@ -65,7 +68,7 @@ impl Volume {
         value: impl Fn(usize, usize) -> f64,
     ) -> Result<(), Unwritten> {
         let [nx, ny] = self.cells;
-        let Some(array) = self.names.iter().position(|known| *known == name) else { return Ok(()) };
+        let Some(array) = self.fields.iter().position(|(known, _)| *known == name) else { return Ok(()) };
         let array_bytes = header(self.cells, self.depths);
         let place = self.start + array as u64 * (8 + array_bytes) + 8 + (depth * nx * ny * 4) as u64;
         let mut bytes = Vec::with_capacity(nx * ny * 4);
@@ -91,7 +94,7 @@ impl Volume {
     /// # Errors
     /// When the file cannot be written.
     pub fn close(mut self) -> Result<(), Unwritten> {
-        let end = self.start + self.names.len() as u64 * (8 + header(self.cells, self.depths));
+        let end = self.start + self.fields.len() as u64 * (8 + header(self.cells, self.depths));
         self.file
             .seek(SeekFrom::Start(end))
             .and_then(|_| self.file.write_all(b"\n  </AppendedData>\n</VTKFile>\n"))
@@ -110,7 +113,7 @@ fn begin(
     part: &Path,
     grid: &SurfaceGrid,
     depths: &[f64],
-    names: &[&'static str],
+    fields: &[Field],
     units: Option<&Units>,
 ) -> io::Result<(File, u64)> {
     let [nx, ny] = grid.cells();
@@ -122,8 +125,8 @@ fn begin(
     text += &format!(
         "  <RectilinearGrid WholeExtent=\"{extent}\">\n    <Piece Extent=\"{extent}\">\n      <PointData>\n"
     );
-    let end = data_array_end(units, "pressure"); // stresses have the unit of a pressure
-    for (number, name) in names.iter().enumerate() {
+    for (number, (name, kind)) in fields.iter().enumerate() {
+        let end = data_array_end(units, kind);
         let offset = number as u64 * (8 + bytes);
         text += &format!(
             "        <DataArray type=\"Float32\" Name=\"{name}\" format=\"appended\" offset=\"{offset}\"{end}\n"
@@ -143,7 +146,7 @@ fn begin(
     let mut file = new_file(part)?;
     file.write_all(text.as_bytes())?;
     let start = text.len() as u64;
-    for number in 0..names.len() as u64 {
+    for number in 0..fields.len() as u64 {
         file.seek(SeekFrom::Start(start + number * (8 + bytes)))?;
         file.write_all(&bytes.to_le_bytes())?;
     }

@@ -33,11 +33,20 @@ fn a_finished_run_tells_its_stresses_without_solving_again() {
     assert!((ratio - 0.60).abs() < 0.05, "{ratio}");
     assert_eq!(bench.text("out/history.csv"), before);
     let volume = std::fs::read(bench.folder.join("out/stress/volume-00018.vtr")).unwrap();
-    // eight fields of 24 x 24 x 3 numbers of four bytes, each after its length
+    // eleven fields of 24 x 24 x 3 numbers of four bytes, each after its length
     let start = volume.windows(7).position(|window| window == b">\n    _").unwrap() + 7;
     let bytes = 24 * 24 * 3 * 4;
     assert_eq!(volume[start..start + 8], (bytes as u64).to_le_bytes());
-    assert_eq!(volume.len() - start, 8 * (8 + bytes) + "\n  </AppendedData>\n</VTKFile>\n".len());
+    assert_eq!(volume.len() - start, 11 * (8 + bytes) + "\n  </AppendedData>\n</VTKFile>\n".len());
+    // the last field is the displacement along z: on the surface, under the middle of the rigid sphere, the approach
+    let surface = &volume[start + 10 * (8 + bytes) + 8..][..24 * 24 * 4];
+    let deepest = surface.chunks(4).map(|four| f32::from_le_bytes(four.try_into().unwrap())).fold(0.0, f32::max);
+    let column = before.lines().next().unwrap().split(',').position(|name| name == "approach").unwrap();
+    let approach: f64 = before.lines().last().unwrap().split(',').nth(column).unwrap().parse().unwrap();
+    // less the gap of the sphere at the centre of the cell beside its middle, half a cell away along both axes
+    let size = 240e-6 / 24.0;
+    let middle = approach - 0.25 * size * size / 10e-3;
+    assert!((f64::from(deepest) / middle - 1.0).abs() < 1e-5, "{deepest} for {middle}");
     let svg = std::fs::read_dir(bench.folder.join("out/stress")).unwrap().filter(|entry| {
         entry.as_ref().unwrap().path().extension().is_some_and(|extension| extension == "svg")
     });

@@ -14,6 +14,7 @@ use super::interface::sliding_coatings;
 use super::judge::Judge;
 use super::kinematics::{Concerned, kinematics};
 use super::line::{datum, line, motion_without_datum};
+use super::mean_gap::mean_plane;
 use super::output::{FIELD_NAMES, Output};
 use super::repeating::repeats;
 use super::residual::residual;
@@ -59,6 +60,7 @@ pub(super) fn case(
     let residual_stress = files.map(|body| residual(&mut judge, body));
     let fatigue = files.map(|body| super::fatigue::fatigue(&mut judge, body));
     let profile = profile(&mut judge, &file, over);
+    judge.mean_plane = mean_plane(&file, (over, judge.moves), bodies.as_ref(), profile.as_ref());
     let friction = friction(&mut judge, file.friction.as_ref(), over);
     let changes = of_stages(&mut judge, &file.load.value, over);
     let changes = friction.as_ref().zip(changes).map(|(first, changes)| of_one_interface(first, changes));
@@ -149,7 +151,18 @@ fn judge_of<'a>(file: &CaseFile, attachments: Attachments<'a>, places: &'a Place
     let displacement = file.kinematics.as_ref().and_then(|given| given.value.displacement.as_ref());
     let moves = displacement.is_some_and(|given| given.value == Displacement::Finite);
     let (mistakes, force_unit) = (Vec::new(), String::new());
-    let mut judge = Judge { mistakes, attachments, places, force_unit, units: None, is_line, moves };
+    let (mean_plane, by_mean_gap) = (Ok(0.0), Vec::new());
+    let mut judge = Judge {
+        mistakes,
+        attachments,
+        places,
+        force_unit,
+        units: None,
+        is_line,
+        moves,
+        mean_plane,
+        by_mean_gap,
+    };
     judge.units = file.units.as_ref().and_then(|file| declared_units(&mut judge, file));
     judge.force_unit = Units::after(judge.units.as_ref(), "force", is_line);
     judge

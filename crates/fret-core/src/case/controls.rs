@@ -4,9 +4,11 @@ use std::ops::Range;
 
 use super::control_keys::{self, Column, Given};
 use super::judge::Judge;
+use super::mean_gap::counted_from;
 use super::stage_file::StageFile;
 use super::table::Columns;
-use crate::model::controls::{ControlRow, FREEDOMS, Form};
+use crate::document::At;
+use crate::model::controls::{ControlRow, FREEDOMS, Form, Kind};
 use crate::model::stage::{Path, StageControl};
 
 /// What a stage prescribes, for each degree of freedom; what is refused is left out.
@@ -27,7 +29,8 @@ pub(super) fn controls(
                 "the table holds all controls of its stage",
             );
         }
-        return from_table(columns);
+        let span = file.table.as_ref().map(At::span).unwrap_or_default();
+        return from_table(judge, (place, &span), columns);
     }
     if let Some((key, _)) = file.columns.as_ref().and_then(|columns| columns.0.first()) {
         judge.refuse::<()>(
@@ -58,7 +61,11 @@ pub(super) fn controls(
             } else {
                 Path::To(value)
             };
-            controls[freedom] = Some(StageControl::new(way.kind, path));
+            let plane = match way.kind {
+                Kind::MeanGap => counted_from(judge, place, span.clone(), (!cyclic).then_some(value)),
+                Kind::Force | Kind::Motion | Kind::FarEnd => Some(0.0),
+            };
+            controls[freedom] = plane.map(|plane| StageControl::new(way.kind, path, plane));
             by[freedom] = key;
         }
     }
@@ -96,12 +103,16 @@ fn phases(judge: &mut Judge, place: &str, file: &StageFile) -> [f64; FREEDOMS] {
     phases
 }
 
-fn from_table(columns: &Columns) -> Controls {
+fn from_table(judge: &mut Judge, (place, span): (&str, &Range<usize>), columns: &Columns) -> Controls {
     let mut controls = Controls::default();
     for Column { name, way, freedom } in control_keys::columns() {
-        if let Some(values) = columns.get(&name) {
-            controls[freedom] = Some(StageControl::new(way.kind, Path::Through(values.clone())));
-        }
+        let Some(values) = columns.get(&name) else { continue };
+        let plane = match way.kind {
+            Kind::MeanGap => counted_from(judge, place, span.clone(), values.iter().copied()),
+            Kind::Force | Kind::Motion | Kind::FarEnd => Some(0.0),
+        };
+        let path = Path::Through(values.clone());
+        controls[freedom] = plane.map(|plane| StageControl::new(way.kind, path, plane));
     }
     controls
 }

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::attachments::Attachments;
+use super::mean_gap::WithoutMeanGap;
 use super::numbers::letters;
 use super::units::Units;
 use crate::document::{At, Mistake, Places};
@@ -21,6 +22,10 @@ pub(super) struct Judge<'a> {
     pub(super) is_line: bool,
     /// Whether the surfaces move with their bodies.
     pub(super) moves: bool,
+    /// Mean of the undeformed gap [length], from which a mean gap counts; or why none can be prescribed, and what to do instead.
+    pub(super) mean_plane: Result<f64, WithoutMeanGap>,
+    /// Stages that prescribe a mean gap.
+    pub(super) by_mean_gap: Vec<usize>,
 }
 
 impl Judge<'_> {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::judge::Judge;
 use super::stage_file::StageFile;
 use crate::document::At;
-use crate::model::controls::Kind;
+use crate::model::controls::{Kind, NORMAL};
 use crate::model::stage::{Stage, StageControl};
 
 /// The stages as they are written, and checked.
@@ -22,6 +22,10 @@ impl Misfit {
     /// Refuses them wherever a stage prescribes them.
     pub fn refuse(&self, judge: &mut Judge, (files, checked): Loading<'_>, why: &str, help: &str) {
         for (index, file) in files.iter().enumerate() {
+            // A mean gap is judged where it is read, and its motion is that of surfaces which have one.
+            if self.motions && self.freedoms.contains(&NORMAL) && judge.by_mean_gap.contains(&index) {
+                continue;
+            }
             let is_meant = |control: &StageControl| !self.motions || control.is_motion();
             let in_table = checked.and_then(|checked| checked.get(index)).is_some_and(|stage| {
                 stage.by_freedom()[self.freedoms.clone()].iter().flatten().any(|control| is_meant(control))

@@ -23,6 +23,7 @@ mod judge;
 mod kinematics;
 mod known_units;
 mod line;
+mod mean_gap;
 mod misfits;
 mod numbers;
 mod output;

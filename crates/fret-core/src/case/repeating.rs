@@ -62,7 +62,8 @@ pub(super) fn repeats(
             _ => continue,
         };
         let why = format!("in a periodic case: {why}");
-        motions.refuse(judge, loading, &why, &format!("{forces}; or, for layers, base = \"rigid\""));
+        let or = if axis == 0 && uniform == Some(None) { "mean_gap; " } else { "" };
+        motions.refuse(judge, loading, &why, &format!("{forces}; or {or}for layers, base = \"rigid\""));
     }
     true
 }

@@ -7,6 +7,7 @@ use super::control_keys::Given;
 use super::controls::controls;
 use super::file::RigFile;
 use super::judge::Judge;
+use super::mean_gap::MEAN_GAP;
 use super::rig::driven;
 use super::stage_file::{IncrementsFile, RampFile, StageFile, WaveformFile};
 use super::stage_names::own_names;
@@ -203,6 +204,11 @@ fn stage(
         Some(name) => Some(table(judge, &place, file, name)?),
         None => None,
     };
+    if file.controls.of(MEAN_GAP).is_some()
+        || columns.as_ref().is_some_and(|table| table.contains_key(MEAN_GAP))
+    {
+        judge.by_mean_gap.push(index);
+    }
     let controls = controls(judge, &place, file, columns.as_ref());
     driven(judge, &place, file, columns.as_ref(), rig);
     let are_good = judge.mistakes.len() == before;

@@ -221,6 +221,7 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
         WORK,
         |step| step.unresolved_energy,
     ),
+    real_or_none("mean_gap", "mean gap between surfaces that repeat", LENGTH, |step| step.mean_gap),
 ];
 
 pub(super) fn regime_word(regime: Regime) -> &'static str {

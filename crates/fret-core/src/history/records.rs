@@ -23,6 +23,8 @@ pub struct StepRecord {
     pub normal_force: f64,
     /// Rigid approach [length].
     pub approach: f64,
+    /// Mean gap between the surfaces [length], where they repeat.
+    pub mean_gap: Option<f64>,
     /// Tangential force on the lower body along x and y [force].
     pub tangential_force: [f64; 2],
     /// Rigid tangential displacement of the upper body [length].

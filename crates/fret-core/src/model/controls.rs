@@ -29,6 +29,8 @@ pub enum Kind {
     Motion,
     /// The motion of the far end of the machine's spring.
     FarEnd,
+    /// The mean gap between surfaces that repeat; less it is the motion, counted from the mean of the undeformed gap.
+    MeanGap,
 }
 
 /// What a case writes for a control.
@@ -90,7 +92,7 @@ pub fn ways() -> impl Iterator<Item = (&'static ControlRow, &'static Way)> {
     CONTROLS.iter().flat_map(|row| row.ways.iter().map(move |way| (row, way)))
 }
 
-use Kind::{FarEnd, Force, Motion};
+use Kind::{FarEnd, Force, MeanGap, Motion};
 
 /// All controls.
 pub static CONTROLS: [ControlRow; 6] = [
@@ -118,6 +120,13 @@ pub static CONTROLS: [ControlRow; 6] = [
                 unit: "length",
                 about: "Normal displacement of the actuator [length]: approach + normal force / stiffness; at the end, or the amplitude.",
                 phase: "Of the actuator along z.",
+            },
+            Way {
+                kind: MeanGap,
+                name: "mean_gap",
+                unit: "length",
+                about: "Mean gap between the surfaces [length], of periodic half-spaces, which have no approach: at the end of the stage, or the\namplitude.",
+                phase: "Of the mean gap.",
             },
         ],
     },
@@ -223,7 +232,7 @@ mod tests {
         // the first way is the force, and no way is there twice
         for row in &CONTROLS {
             let kinds: Vec<Kind> = row.ways.iter().map(|way| way.kind).collect();
-            assert_eq!(kinds, [Force, Motion, FarEnd][..kinds.len()]);
+            assert_eq!(kinds, [Force, Motion, FarEnd, MeanGap][..kinds.len()]);
         }
     }
 }

@@ -109,6 +109,15 @@ impl Path {
             Self::Through(values) => values.iter().all(|value| *value == 0.0),
         }
     }
+
+    /// How far below a plane it runs.
+    fn below(self, plane: f64) -> Self {
+        match self {
+            Self::To(value) => Self::To(plane - value),
+            Self::Wave { amplitude, phase } => Self::Wave { amplitude: -amplitude, phase },
+            Self::Through(values) => Self::Through(values.into_iter().map(|value| plane - value).collect()),
+        }
+    }
 }
 
 impl<M> Stage<M> {
@@ -231,12 +240,13 @@ impl<M> Stage<M> {
 }
 
 impl StageControl {
-    /// A control of a kind.
-    pub fn new(kind: Kind, path: Path) -> Self {
+    /// A control of a kind; `mean_plane`: the mean of the undeformed gap [length], from which a mean gap counts.
+    pub fn new(kind: Kind, path: Path, mean_plane: f64) -> Self {
         match kind {
             Kind::Force => Self::Force(path),
             Kind::Motion => Self::Motion(path),
             Kind::FarEnd => Self::FarEnd(path),
+            Kind::MeanGap => Self::Motion(path.below(mean_plane)),
         }
     }
 

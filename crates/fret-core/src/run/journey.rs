@@ -253,7 +253,8 @@ impl<'a> Journey<'a> {
         };
         let wall_s = started.elapsed().as_secs_f64();
         let (friction, symmetry) = (self.solver.solver.friction(), self.plan.symmetry);
-        let record = record(&solved, (case.springs(), friction, symmetry), (increment, stage, parts), wall_s);
+        let repeats = (symmetry, case.periodic);
+        let record = record(&solved, (case.springs(), friction, repeats), (increment, stage, parts), wall_s);
         let kept =
             may_keep.then(|| kept(&solved, (friction, symmetry), increment, &case.output.fields)).transpose();
         let kept = kept.map_err(|error| RunError::OutOfMemory { increment, error })?;

@@ -8,10 +8,10 @@ use crate::machine::memory::MemoryError;
 use crate::model::{CellMap, CellValues, CoulombFriction, Rig, Symmetry, Zone};
 use crate::solver::Increment;
 
-/// The record of a solved increment; what it has worn is not yet known.
+/// The record of a solved increment of surfaces that may repeat; what it has worn is not yet known.
 pub fn record(
     solved: &Increment,
-    (rig, friction, symmetry): (Rig, &CoulombFriction, Symmetry),
+    (rig, friction, (symmetry, repeats)): (Rig, &CoulombFriction, (Symmetry, bool)),
     (increment, stage, parts): (usize, usize, usize),
     wall_s: f64,
 ) -> StepRecord {
@@ -29,6 +29,7 @@ pub fn record(
         parts,
         normal_force: outcome.resultants.normal,
         approach: state.approach,
+        mean_gap: repeats.then(|| solved.gap.mean()).flatten(),
         tangential_force: outcome.resultants.tangential,
         shift: state.shift,
         actuator_approach: rig.actuator_approach(state.approach, outcome.resultants.normal),
