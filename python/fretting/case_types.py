@@ -296,6 +296,10 @@ class Phase(TypedDict):
     """
     Of the bulk stress of the lower body.
     """
+    mean_gap: NotRequired[float]
+    """
+    Of the mean gap.
+    """
     normal_force: NotRequired[float]
     """
     Of the normal force.
@@ -1016,6 +1020,11 @@ class Stage(TypedDict):
     """
     Number of increments: per stage; with cycles, per cycle; with a table, per row. "auto": 16 per stage, 32 per cycle, 4 per
     row, each with adaptive sub-steps controlled by `solver.history_tolerance`.
+    """
+    mean_gap: NotRequired[float]
+    """
+    Mean gap between the surfaces [length], of periodic half-spaces, which have no approach: at the end of the stage, or the
+    amplitude.
     """
     name: NotRequired[str]
     """

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use fret_core::case::Units;
+use fret_core::history::{STEP_COLUMNS, Value};
 
 use crate::error::ResultsError;
 use crate::names::HISTORY;
@@ -12,7 +13,12 @@ use crate::run_record::Record;
 /// The one column of words.
 const REGIME: &str = "regime";
 
-/// A table of numbers, a row an increment.
+/// Whether some increments have no number in this column.
+fn may_lack(name: &str) -> bool {
+    STEP_COLUMNS.iter().any(|column| column.name == name && matches!(column.value, Value::RealOrNone(_)))
+}
+
+/// A table of numbers, a row an increment; not a number where an increment has none.
 #[derive(Debug)]
 pub struct Table {
     /// The table as it was written, whole lines only.
@@ -62,6 +68,8 @@ impl Table {
             for (cell, (name, column)) in cells.iter().zip(&mut table.columns) {
                 if name == REGIME {
                     table.regimes.push((*cell).to_owned());
+                } else if cell.is_empty() && may_lack(name) {
+                    column.push(f64::NAN);
                 } else {
                     column.push(cell.parse().map_err(|_| torn())?);
                 }
