@@ -1,8 +1,13 @@
 //! How a case is refused: every mistake with its place, what was found, what is allowed.
 
+use std::ops::Range;
+
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
 use crate::document::{Mistake, printable};
+
+/// Bytes of a place that is marked over several lines, at the most.
+const LONGEST_MARK: usize = 1000;
 
 /// A place in which a case differs from the setting of a state.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -80,13 +85,22 @@ impl CaseError {
             return printable(&format!("error: {}: {}{help}", self.name, mistake.message)).into_owned();
         };
         let snippet =
-            Snippet::source(&self.text).path(&self.name).annotation(AnnotationKind::Primary.span(span));
+            Snippet::source(&self.text).path(&self.name).annotation(AnnotationKind::Primary.span(shown(&self.text, span)));
         let group = Level::ERROR.primary_title(printable(&mistake.message)).element(snippet);
         let group = match &mistake.help {
             Some(help) => group.element(Level::HELP.message(printable(help))),
             None => group,
         };
         renderer.render(&[group])
+    }
+}
+
+/// What of a place is marked: of a long one over several lines, the part in its first line.
+fn shown(text: &str, span: Range<usize>) -> Range<usize> {
+    let marked = text.get(span.clone()).unwrap_or_default();
+    match marked.find('\n') {
+        Some(end) if marked.len() > LONGEST_MARK => span.start..span.start + end.max(1),
+        _ => span,
     }
 }
 
@@ -102,6 +116,14 @@ impl std::error::Error for CaseError {}
 mod tests {
     use super::CaseError;
     use crate::document::Mistake;
+
+    #[test]
+    fn a_long_place_over_several_lines_is_marked_in_its_first() {
+        let text = format!("a = [\n{}]\n", "_".repeat(5000));
+        let mistake = Mistake { message: "wrong".to_owned(), help: None, span: Some(4..text.len() - 1) };
+        let told = CaseError::new("case.toml", &text, vec![mistake]).render(false);
+        assert!(told.contains("a = [") && told.len() < 200, "{told}");
+    }
 
     #[test]
     fn a_refusal_knows_its_case_and_the_places_of_its_mistakes() {

@@ -4,7 +4,7 @@
 //! Measured on a coating 1e3 times stiffer than the half-space below: the contact, begun a little too large, shrinks in two
 //! to four changes; it need not in general (rough surfaces cycle), so it gives up when its violations stop falling.
 
-use super::super::laws::complementarity::{NormalResidual, length_scale};
+use super::super::laws::complementarity::{NormalResidual, length_scale, violation};
 use super::super::settings::SolveError;
 use super::problem::{Ending, NormalIteration};
 use crate::fields::{CellRule, CellSize, Reals, add_scaled, dot, each_cell, largest_of, sum};
@@ -17,8 +17,10 @@ const MAX_STALLED: usize = 6;
 /// What is wrong on a fixed contact.
 struct Violations {
     approach: f64,
-    /// Largest gap on the contact or violation, over [`length_scale`].
+    /// Largest gap on the contact or violation, over the scale.
     residual: f64,
+    /// What violations are measured by [length], see [`length_scale`].
+    scale: f64,
     /// The same, gap alone.
     inner: f64,
     /// Sums of squares of the gap on the contact and of the violations.
@@ -51,12 +53,10 @@ pub fn iterate(problem: &mut NormalIteration<'_>) -> Result<Ending, SolveError> 
         loop {
             problem.report(here.residual)?;
             if here.residual < problem.tolerance && here.tense == 0.0 {
-                let residual = NormalResidual {
-                    approach: here.approach,
-                    turned: problem.turned,
-                    residual: here.residual,
-                };
-                return Ok(Ending::Solved(residual));
+                // What was asked for is more: no gap on the contact at all, however small its pressure.
+                let residual = violation(&problem.gap, problem.pressure, problem.self_influence) / here.scale;
+                let (approach, turned) = (here.approach, problem.turned);
+                return Ok(Ending::Solved(NormalResidual { approach, turned, residual }));
             }
             let settled = here.inner_square < SMALL_BESIDE * SMALL_BESIDE * here.outer_square;
             if steps > 0 && settled || here.inner < problem.tolerance {
@@ -114,6 +114,7 @@ fn examine(problem: &mut NormalIteration<'_>) -> Violations {
     Violations {
         approach,
         residual: relative(inner.max(outer)),
+        scale,
         inner: relative(inner),
         inner_square,
         outer_square,
@@ -182,7 +183,7 @@ impl CellRule<4, 1, 4> for Heights {
 
 /// What a cell violates: pressure under tension on the contact, as the gap it would close; overlap off it.
 #[inline(always)]
-fn violation<R: Reals>(own: f64, gap: R, p: R, active: R) -> R {
+fn off<R: Reals>(own: f64, gap: R, p: R, active: R) -> R {
     let zero = p.all(0.0);
     active.if_at_most(zero, (gap * -1.0).max(zero), (p * -own).max(zero))
 }
@@ -199,7 +200,7 @@ impl CellRule<2, 2, 3> for Examine {
         let zero = p.all(0.0);
         *gap = *gap - self.approach;
         *inside = active * *gap;
-        let off = violation(self.own, *gap, p, active);
+        let off = off(self.own, *gap, p, active);
         [*inside * *inside, off * off, zero.if_at_most(p, zero, active)]
     }
 }
@@ -220,7 +221,7 @@ struct Violation {
 impl CellSize<3> for Violation {
     #[inline(always)]
     fn of<R: Reals>(&self, [gap, p, active]: [R; 3]) -> R {
-        violation(self.own, gap, p, active)
+        off(self.own, gap, p, active)
     }
 }
 
