@@ -118,12 +118,14 @@ pub mod history;
 pub mod identify;
 pub mod kernel;
 pub mod machine;
+pub mod measured;
 pub mod model;
 pub mod plan;
 #[cfg(test)]
 #[path = "../../../tests/random.rs"]
 mod random;
 pub mod run;
+pub mod scar;
 pub mod solver;
 pub mod study;
 pub mod subsurface;

@@ -2,6 +2,7 @@
 
 use fret_cli::embedded::{self, IdentifyRequest};
 use fret_core::identify::Request;
+use fret_core::measured;
 use pyo3::prelude::{PyResult, Python, pyfunction};
 
 use crate::case::Case;
@@ -21,7 +22,8 @@ pub fn identify(
     threads: Threads,
 ) -> PyResult<(String, String)> {
     let (columns, units, cycle, key, strict) = asked;
-    let request = IdentifyRequest { log: Request { columns, units, cycle, strict }, key };
+    let request =
+        IdentifyRequest { log: Request { asked: measured::Asked { columns, units }, cycle, strict }, key };
     let (name, bytes) = log;
     let pool = threads::pool(threads)?;
     let text = case.text()?;

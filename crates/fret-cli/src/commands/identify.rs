@@ -4,6 +4,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use fret_core::identify;
+use fret_core::measured::Asked;
 
 use crate::arguments::IdentifyArguments;
 use crate::failure::Failure;
@@ -23,8 +24,10 @@ pub fn identify(arguments: &IdentifyArguments, as_json: bool) -> Result<(), Fail
     let name = name_of(&arguments.log);
     let bytes = content(&arguments.log)?;
     let log = identify::Request {
-        columns: pairs("--columns", &arguments.columns)?,
-        units: pairs("--units", &arguments.units)?,
+        asked: Asked {
+            columns: pairs("--columns", &arguments.columns)?,
+            units: pairs("--units", &arguments.units)?,
+        },
         cycle: arguments.cycle,
         strict: arguments.strict,
     };

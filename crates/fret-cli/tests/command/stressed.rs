@@ -40,7 +40,8 @@ fn a_finished_run_tells_its_stresses_without_solving_again() {
     assert_eq!(volume.len() - start, 11 * (8 + bytes) + "\n  </AppendedData>\n</VTKFile>\n".len());
     // the last field is the displacement along z: on the surface, under the middle of the rigid sphere, the approach
     let surface = &volume[start + 10 * (8 + bytes) + 8..][..24 * 24 * 4];
-    let deepest = surface.chunks(4).map(|four| f32::from_le_bytes(four.try_into().unwrap())).fold(0.0, f32::max);
+    let deepest =
+        surface.chunks(4).map(|four| f32::from_le_bytes(four.try_into().unwrap())).fold(0.0, f32::max);
     let column = before.lines().next().unwrap().split(',').position(|name| name == "approach").unwrap();
     let approach: f64 = before.lines().last().unwrap().split(',').nth(column).unwrap().parse().unwrap();
     // less the gap of the sphere at the centre of the cell beside its middle, half a cell away along both axes

@@ -84,8 +84,9 @@ impl CaseError {
             let help = mistake.help.as_ref().map_or(String::new(), |help| format!("\n  = help: {help}"));
             return printable(&format!("error: {}: {}{help}", self.name, mistake.message)).into_owned();
         };
-        let snippet =
-            Snippet::source(&self.text).path(&self.name).annotation(AnnotationKind::Primary.span(shown(&self.text, span)));
+        let snippet = Snippet::source(&self.text)
+            .path(&self.name)
+            .annotation(AnnotationKind::Primary.span(shown(&self.text, span)));
         let group = Level::ERROR.primary_title(printable(&mistake.message)).element(snippet);
         let group = match &mistake.help {
             Some(help) => group.element(Level::HELP.message(printable(help))),

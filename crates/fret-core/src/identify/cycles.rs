@@ -1,8 +1,9 @@
 //! Cycles of a log: where each begins and ends, which of them are whole, and why the others are skipped.
 
 use super::error::{IdentifyError, refused};
-use super::log::Table;
+use super::log::{CYCLE, DISPLACEMENT, FORCE, NORMAL_FORCE};
 use super::turns::{falls, range, rising_crossings, tops, turns};
+use crate::measured::Table;
 
 /// Points of a cycle, at the least.
 const FEWEST: usize = 12;
@@ -44,13 +45,13 @@ pub struct Fault {
 }
 
 /// The cycles of a log: by its column, or from one turn of the displacement to the next of its kind.
-pub fn split(table: &Table, [length, force, normal]: [f64; 3]) -> Vec<MeasuredCycle> {
-    let displacement: Vec<f64> = table.of(0).iter().map(|value| value * length).collect();
-    let forces: Vec<f64> = table.of(1).iter().map(|value| value * force).collect();
+pub fn split(table: &Table, scale: &[f64]) -> Vec<MeasuredCycle> {
+    let of = |role: usize| -> Vec<f64> { table.of(role).iter().map(|value| value * scale[role]).collect() };
+    let (displacement, forces) = (of(DISPLACEMENT), of(FORCE));
     let cycle = |(name, from, to): (f64, usize, usize)| {
-        let normal_force = table.columns[3]
-            .as_ref()
-            .map(|column| (normal * column.values[from..to].iter().sum::<f64>() / (to - from) as f64).abs());
+        let normal_force = table.columns[NORMAL_FORCE].as_ref().map(|column| {
+            (scale[NORMAL_FORCE] * column.values[from..to].iter().sum::<f64>() / (to - from) as f64).abs()
+        });
         let mut cycle = MeasuredCycle {
             name,
             turns: [0.0; 2],
@@ -66,8 +67,8 @@ pub fn split(table: &Table, [length, force, normal]: [f64; 3]) -> Vec<MeasuredCy
         cycle.fault = cycle.fault_of(&table.lines[from..to]);
         cycle
     };
-    let mut cycles: Vec<MeasuredCycle> = if table.columns[2].is_some() {
-        let numbers = table.of(2);
+    let mut cycles: Vec<MeasuredCycle> = if table.columns[CYCLE].is_some() {
+        let numbers = table.of(CYCLE);
         let starts: Vec<usize> =
             (0..numbers.len()).filter(|&row| row == 0 || numbers[row] != numbers[row - 1]).collect();
         let ends = starts.iter().skip(1).copied().chain([numbers.len()]);

@@ -1,6 +1,7 @@
 //! Why a log was not identified.
 
 use crate::case::CaseError;
+use crate::measured::MeasuredError;
 use crate::run::RunError;
 
 /// Why a log was not identified.
@@ -25,4 +26,10 @@ pub enum IdentifyError {
 /// A refusal of a log, with what to do about it.
 pub(super) fn refused(name: &str, what: &str, help: &str) -> IdentifyError {
     IdentifyError::Log { what: format!("{name}: {what}"), help: help.to_owned() }
+}
+
+impl From<MeasuredError> for IdentifyError {
+    fn from(MeasuredError { what, help }: MeasuredError) -> Self {
+        Self::Log { what, help }
+    }
 }

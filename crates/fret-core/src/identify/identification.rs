@@ -2,6 +2,7 @@
 
 use crate::case::{Case, Units};
 use crate::history::{CycleRegime, SLIDING_ENERGY_RATIO};
+use crate::measured::scales;
 
 use super::cycles::{self, MeasuredCycle};
 use super::direction::{self, Direction};
@@ -14,7 +15,6 @@ use super::log;
 use super::model::Model;
 use super::quantities::{Known, Quantities};
 use super::request::{Key, Request};
-use super::unit_names;
 
 /// What a log tells; lengths and forces in the units of the case.
 #[derive(Debug, Clone)]
@@ -85,10 +85,10 @@ pub fn identify(
     key: Option<Key<'_>>,
     request: &Request,
 ) -> Result<Identification, IdentifyError> {
-    let request = &request.beside(&case.log_columns);
-    let table = log::read(name, bytes, request)?;
+    let asked = request.beside(&case.log_columns);
+    let table = log::read(name, bytes, &asked, request.strict)?;
     let mut notes = Vec::new();
-    let scale = unit_names::scales(&table, request, case.units.as_ref(), &mut notes)?;
+    let scale = scales(&table, (&log::ROLES, &asked), case.units.as_ref(), &mut notes)?;
     let has_units =
         case.units.is_some() || table.columns.iter().flatten().any(|column| column.unit.is_some());
     if !table.heads.is_empty() {
@@ -97,7 +97,7 @@ pub fn identify(
             "the log has {blocks} blocks with a head each: they were read one after the other"
         ));
     }
-    let mut measured = cycles::split(&table, scale);
+    let mut measured = cycles::split(&table, &scale);
     let turned = direction::of(&measured);
     if let (Some(what), true) = (turned.in_words(), request.strict) {
         return Err(refused(

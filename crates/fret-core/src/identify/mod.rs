@@ -1,6 +1,6 @@
 //! From measured fretting loops to the constants of a model: friction coefficient, stiffness of the rig, one number of the case.
 //!
-//! From the ground: `request` and `error`; `head` and `log` (columns of numbers with their lines), `unit_names`; `turns` of a signal,
+//! From the ground: `request` and `error`; `log` (which columns there are); `turns` of a signal,
 //! `cycles` (which are whole), `direction`, `drift`; `computed` (a loop between its points), `model` (the loop that the solver computes),
 //! `flanks`, `quantities` (what is read from a cycle); `start`, `intervals`, `fit` (least squares), `found`; the answer in
 //! `identification`.
@@ -13,7 +13,6 @@ mod error;
 mod fit;
 mod flanks;
 mod found;
-mod head;
 mod identification;
 mod intervals;
 mod log;
@@ -24,7 +23,6 @@ mod start;
 #[cfg(test)]
 mod tests;
 mod turns;
-mod unit_names;
 
 pub use cycles::{Fault, MeasuredCycle};
 pub use direction::Direction;

@@ -1,18 +1,13 @@
 //! What is asked of a log.
 
 use crate::case::{Case, CaseError};
-
-/// What a column can hold.
-pub(super) const ROLES: [&str; 4] = ["displacement", "force", "cycle", "normal_force"];
+use crate::measured::Asked;
 
 /// What is asked of a log.
 #[derive(Debug, Clone, Default)]
 pub struct Request {
-    /// Columns by what they hold: `displacement`, `force`, `cycle`, `normal_force`; by name, or by number from 1; before those that the
-    /// case names.
-    pub columns: Vec<(String, String)>,
-    /// Units by what they are of: `displacement`, `force`, `normal_force`.
-    pub units: Vec<(String, String)>,
+    /// Columns by what they hold: `displacement`, `force`, `cycle`, `normal_force`, before those that the case names; and units.
+    pub asked: Asked,
     /// The cycle that is fitted; default: the last whole one.
     pub cycle: Option<f64>,
     /// Whether a log with a cycle that is no whole loop, or a row without a number, is refused; else these are skipped and named.
@@ -20,15 +15,15 @@ pub struct Request {
 }
 
 impl Request {
-    /// With the columns that the case names, where none is asked for.
-    pub(super) fn beside(&self, of_case: &[(&str, String)]) -> Self {
-        let mut request = self.clone();
+    /// Its columns and units, with the columns that the case names where none is asked for.
+    pub(super) fn beside(&self, of_case: &[(&str, String)]) -> Asked {
+        let mut asked = self.asked.clone();
         for (what, name) in of_case {
-            if !self.columns.iter().any(|(asked, _)| asked == what) {
-                request.columns.push(((*what).to_owned(), name.clone()));
+            if !asked.columns.iter().any(|(known, _)| known == what) {
+                asked.columns.push(((*what).to_owned(), name.clone()));
             }
         }
-        request
+        asked
     }
 }
 

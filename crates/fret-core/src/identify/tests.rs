@@ -16,6 +16,7 @@ use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use super::{Constant, Identification, IdentifyError, Request};
 use crate::case::Case;
 use crate::history::CycleRegime;
+use crate::measured::Asked;
 
 /// Two equal spheres of E = 210 GPa, nu = 0, pressed with 100 N: units mm and N.
 const CASE: &str = "[units]\nlength = \"mm\"\nforce = \"N\"\n[grid]\ncells = [40, 40]\nsize = \"auto\"\n[upper]\nsubstrate = { young = 210e3, poisson = 0.0 }\n\
@@ -250,7 +251,8 @@ fn an_export_of_a_rig_is_identified() {
     }
     let columns = [("displacement", "Weg"), ("force", "Kraft"), ("cycle", "Zyklus")];
     let columns = columns.map(|(role, name)| (role.to_owned(), name.to_owned())).to_vec();
-    let found = identified(&log, &Request { columns, ..Request::default() });
+    let found =
+        identified(&log, &Request { asked: Asked { columns, ..Asked::default() }, ..Request::default() });
     assert_eq!(found.cycles.len(), 5);
     assert_eq!(found.fitted_cycle().measured.name, 5.0);
     assert!((constant(&found, 0)[0] / 0.6 - 1.0).abs() < 0.01);
@@ -271,7 +273,7 @@ fn the_case_names_the_columns_of_the_log() {
     let good = "displacement = \"hub\", force = \"reibkraft\", cycle = \"nr\"";
     let found = |case: Case, columns: &[(&str, &str)]| {
         let columns = columns.iter().map(|(what, name)| ((*what).to_owned(), (*name).to_owned())).collect();
-        identify(&log, case, &Request { columns, ..Request::default() })
+        identify(&log, case, &Request { asked: Asked { columns, ..Asked::default() }, ..Request::default() })
             .map(|found| (found.fitted_cycle().measured.name, constant(&found, 0)))
             .map_err(|error| error.to_string())
     };

@@ -3,6 +3,7 @@
 
 use super::{Identification, Request, constant, identified, refusal};
 use crate::identify::Direction;
+use crate::measured::Asked;
 
 pub const LOOP: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/golden/logs/loop.csv"));
 /// As a tribometer exports it: two steps with a head each, grams of force, millimetres.
@@ -74,14 +75,14 @@ fn a_log_without_units_is_asked_for_them() {
     let told = refusal(&bare, &Request::default());
     assert!(told.contains("is the unit of the displacement right?") && !told.contains("inf"), "{told}");
     let units = columns(&[("displacement", "um"), ("force", "N")]);
-    is_the_loop(&bare, &Request { units, ..Request::default() });
+    is_the_loop(&bare, &Request { asked: Asked { units, ..Asked::default() }, ..Request::default() });
 }
 
 /// Heads in the middle, lines above each, grams of force that point the other way.
 #[test]
 fn blocks_with_a_head_each_are_read_one_after_the_other() {
     let asked = columns(&[("displacement", "X"), ("force", "Fx"), ("normal_force", "Fz")]);
-    let request = Request { columns: asked, ..Request::default() };
+    let request = Request { asked: Asked { columns: asked, ..Asked::default() }, ..Request::default() };
     let found = is_the_loop(BLOCKS, &request);
     let notes = found.notes.concat();
     assert!(notes.contains("2 blocks with a head each"), "{notes}");
@@ -115,8 +116,7 @@ fn columns_are_named_by_numbers_where_they_have_no_names() {
     assert!(told.contains("there are no names") && told.contains("displacement=1,force=2"), "{told}");
     let units = columns(&[("displacement", "um")]);
     let by_number = |pairs: &[(&str, &str)]| Request {
-        columns: columns(pairs),
-        units: units.clone(),
+        asked: Asked { columns: columns(pairs), units: units.clone() },
         ..Request::default()
     };
     is_the_loop(&spaced, &by_number(&[("displacement", "1"), ("force", "2")]));
@@ -124,8 +124,8 @@ fn columns_are_named_by_numbers_where_they_have_no_names() {
     is_the_loop(&commas, &by_number(&[("displacement", "3"), ("force", "2")]));
     // Units above the numbers are read there; a head without known names serves by its numbers, too.
     let titled = written("Rig 3\ns1;s2\nN;um\n", |[d, q]| format!("{q:.5};{d:.5}"));
-    let titled_by =
-        Request { columns: columns(&[("displacement", "2"), ("force", "1")]), ..Request::default() };
+    let asked = Asked { columns: columns(&[("displacement", "2"), ("force", "1")]), ..Asked::default() };
+    let titled_by = Request { asked, ..Request::default() };
     is_the_loop(&titled, &titled_by);
     assert!(refusal(&spaced, &by_number(&[("displacement", "1"), ("force", "1")])).contains("one column"));
     let far = refusal(&spaced, &by_number(&[("displacement", "1"), ("force", "9")]));

@@ -6,9 +6,9 @@ use rand_pcg::Pcg64Mcg;
 
 use super::super::cycles::{MeasuredCycle, split};
 use super::super::flanks::Flanks;
-use super::super::log::{Column, Table};
 use super::super::quantities::{Known, Quantities};
 use super::{PARTIAL, PRESSED, Request, Rig, identified};
+use crate::measured::{Column, Table};
 
 /// Mindlin's flanks of the case, by the same closed form: `first` without the spring, over the friction force.
 fn flanks() -> Flanks {
@@ -26,11 +26,11 @@ fn read(rig: Rig, seed: u64) -> Quantities {
         Some(Column { name: String::new(), unit: None, values })
     };
     let table = Table {
-        columns: [column(0), column(1), None, None],
+        columns: vec![column(0), column(1), None, None],
         lines: (1..=rows.len()).collect(),
         ..Table::default()
     };
-    let cycles: Vec<MeasuredCycle> = split(&table, [1.0; 3]);
+    let cycles: Vec<MeasuredCycle> = split(&table, &[1.0; 4]);
     assert!(cycles[0].fault.is_none(), "{:?}", cycles[0].fault);
     let flanks = flanks();
     let known = Known {

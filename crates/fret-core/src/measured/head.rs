@@ -1,28 +1,11 @@
-//! The head of a log: which line names the columns, which column holds what, and in which units.
+//! The head of a measured table: which line names the columns, which column holds what, and in which units.
 
 use crate::case::{Heading, is_comment, is_unit, number};
 
-use super::error::{IdentifyError, refused};
-use super::request::{ROLES, Request};
+use super::asked::Asked;
+use super::error::{MeasuredError, refused};
+use super::role::{Role, listed, needed};
 
-/// Names by which columns are known when none are given.
-const KNOWN: [&[&str]; 4] = [
-    &["displacement", "actuator", "actuator_x", "delta", "stroke", "position", "weg", "hub", "verschiebung"],
-    &[
-        "force",
-        "tangential_force",
-        "tangential_force_x",
-        "friction_force",
-        "q",
-        "ft",
-        "fx",
-        "kraft",
-        "reibkraft",
-        "tangentialkraft",
-    ],
-    &["cycle", "cycles", "cycle_number", "zyklus"],
-    &["normal_force", "p", "fn", "normal_load", "normalkraft"],
-];
 /// Lines above the first numbers, at the most.
 const MOST_ABOVE: usize = 200;
 /// What may part columns, the surest first; the last stands for any white space.
@@ -34,7 +17,7 @@ const OTHERS: [&str; 17] =
 /// Units of mass, of which many load cells write their weights.
 pub(super) const MASSES: [&str; 4] = ["g", "kg", "mg", "lb"];
 
-/// Where the columns of a log are.
+/// Where the columns of a table are.
 #[derive(Debug)]
 pub struct Head {
     /// Lines above the first row, those of the head included.
@@ -42,7 +25,7 @@ pub struct Head {
     /// What parts the columns.
     pub delimiter: char,
     /// The place of every role.
-    pub places: [Option<usize>; 4],
+    pub places: Vec<Option<usize>>,
     /// Names, where there are any.
     pub names: Vec<String>,
     /// Units in the line below the names, by place.
@@ -97,17 +80,25 @@ pub fn cells(line: &str, delimiter: char) -> Vec<String> {
     }
 }
 
-/// The names of columns that the request gives, by role.
-fn wanted(name: &str, request: &Request) -> Result<[Option<String>; 4], IdentifyError> {
-    let mut wanted = [const { None }; 4];
-    for (role, column) in &request.columns {
-        let Some(index) = ROLES.iter().position(|known| known == role) else {
-            let help = format!("a column holds one of: {}", ROLES.join(", "));
+/// The names of columns that are asked for, by role.
+fn wanted(name: &str, roles: &[Role], asked: &Asked) -> Result<Vec<Option<String>>, MeasuredError> {
+    let mut wanted = vec![None; roles.len()];
+    for (role, column) in &asked.columns {
+        let Some(index) = roles.iter().position(|known| known.name == role) else {
+            let names: Vec<&str> = roles.iter().map(|role| role.name).collect();
+            let help = format!("a column holds one of: {}", names.join(", "));
             return Err(refused(name, &format!("columns: {role:?} is nothing that a log holds"), &help));
         };
         wanted[index] = Some(column.clone());
     }
     Ok(wanted)
+}
+
+/// How columns are chosen, as a call says it.
+fn choice(roles: &[Role], column: impl Fn(usize) -> String) -> String {
+    let pairs: Vec<String> =
+        (0..needed(roles)).map(|role| format!("{}={}", roles[role].name, column(role))).collect();
+    format!("--columns \"{}\"", pairs.join(","))
 }
 
 /// The number of a column, from 1, as a place from 0.
@@ -118,20 +109,25 @@ fn place_of_number(word: &str) -> Option<usize> {
 /// Finds the head.
 ///
 /// # Errors
-/// When no line names a displacement and a force, and no numbers of columns were given.
-pub fn find(name: &str, text: &str, request: &Request) -> Result<Head, IdentifyError> {
-    let wanted = wanted(name, request)?;
+/// When no line names the columns that are needed, and no numbers of columns were given.
+pub fn find(name: &str, text: &str, roles: &[Role], asked: &Asked) -> Result<Head, MeasuredError> {
+    let wanted = wanted(name, roles, asked)?;
     let lines: Vec<&str> = text.lines().take(MOST_ABOVE).collect();
-    let found = by_names(&lines, &wanted).or_else(|| by_numbers(&lines, &wanted));
-    let Some(mut head) = found else { return Err(not_found(name, &lines, &wanted)) };
-    if head.places[0] == head.places[1] {
+    let found = by_names(&lines, roles, &wanted).or_else(|| by_numbers(&lines, roles, &wanted));
+    let Some(mut head) = found else { return Err(not_found(name, &lines, roles, &wanted)) };
+    let twice = (1..needed(roles)).find(|role| head.places[..*role].contains(&head.places[*role]));
+    if let Some(role) = twice {
+        let place = head.places[role];
+        let other = head.places.iter().position(|other| *other == place).unwrap_or_default();
         return Err(refused(
             name,
             &format!(
-                "displacement and force are one column: {:?}",
-                head.name_and_unit(head.places[0].unwrap_or_default()).0
+                "{} and {} are one column: {:?}",
+                roles[other].name,
+                roles[role].name,
+                head.name_and_unit(place.unwrap_or_default()).0
             ),
-            "say which is which: --columns \"displacement=stroke,force=load\"",
+            &format!("say which is which: {}", choice(roles, |role| roles[role].example.to_owned())),
         ));
     }
     // A line of units below the names; behind a remark sign only where they are units.
@@ -163,8 +159,9 @@ pub fn find(name: &str, text: &str, request: &Request) -> Result<Head, IdentifyE
     Ok(head)
 }
 
-/// The first line that names a displacement and a force.
-fn by_names(lines: &[&str], wanted: &[Option<String>; 4]) -> Option<Head> {
+/// The first line that names the columns that are needed.
+fn by_names(lines: &[&str], roles: &[Role], wanted: &[Option<String>]) -> Option<Head> {
+    let needed = needed(roles);
     let is_named = |role: usize| wanted[role].as_deref().is_none_or(|word| place_of_number(word).is_none());
     for (row, line) in lines.iter().enumerate() {
         let delimiter = DELIMITERS.into_iter().find(|mark| line.contains(*mark)).unwrap_or(',');
@@ -180,13 +177,13 @@ fn by_names(lines: &[&str], wanted: &[Option<String>; 4]) -> Option<Head> {
                 .or_else(|| place_of_number(column).filter(|place| *place < names.len())),
             None => names.iter().position(|name| {
                 let plain = name_and_unit(name).0.to_lowercase().replace([' ', '-'], "_");
-                KNOWN[role].contains(&plain.as_str())
+                roles[role].known.contains(&plain.as_str())
             }),
         };
-        let places = [0, 1, 2, 3].map(place);
-        let given = (0..4).all(|role| wanted[role].is_none() || places[role].is_some());
+        let places: Vec<Option<usize>> = (0..roles.len()).map(place).collect();
+        let given = (0..roles.len()).all(|role| wanted[role].is_none() || places[role].is_some());
         // A line of numbers has any place; a name has to be one.
-        let named = (0..2).any(|role| {
+        let named = (0..needed).any(|role| {
             let by_name = wanted[role].as_ref().is_some_and(|column| {
                 names.iter().any(|name| name == column || name_and_unit(name).0 == *column)
             });
@@ -199,8 +196,8 @@ fn by_names(lines: &[&str], wanted: &[Option<String>; 4]) -> Option<Head> {
                     cells(line, delimiter).get(*place).is_some_and(|cell| number(cell, true).is_ok())
                 })
             };
-        let fits = delimiter != ' ' || places[..2].iter().flatten().all(below);
-        if places[0].is_some() && places[1].is_some() && given && named && fits {
+        let fits = delimiter != ' ' || places[..needed].iter().flatten().all(below);
+        if places[..needed].iter().all(Option::is_some) && given && named && fits {
             return Some(Head { above: row + 1, delimiter, places, names, units: Vec::new() });
         }
     }
@@ -208,12 +205,13 @@ fn by_names(lines: &[&str], wanted: &[Option<String>; 4]) -> Option<Head> {
 }
 
 /// Columns by their numbers alone: from the first line that has numbers there; names and units stand above it, where they do.
-fn by_numbers(lines: &[&str], wanted: &[Option<String>; 4]) -> Option<Head> {
-    let places = [0, 1, 2, 3].map(|role| wanted[role].as_deref().map(place_of_number));
-    if places[0].flatten().is_none() || places[1].flatten().is_none() || places.contains(&Some(None)) {
+fn by_numbers(lines: &[&str], roles: &[Role], wanted: &[Option<String>]) -> Option<Head> {
+    let places: Vec<Option<Option<usize>>> =
+        wanted.iter().map(|column| column.as_deref().map(place_of_number)).collect();
+    if places[..needed(roles)].contains(&None) || places.contains(&Some(None)) {
         return None;
     }
-    let places = places.map(Option::flatten);
+    let places: Vec<Option<usize>> = places.into_iter().map(Option::flatten).collect();
     for (row, line) in lines.iter().enumerate().filter(|(_, line)| !is_comment(line)) {
         let fits = |delimiter: &char| {
             let row = cells(line, *delimiter);
@@ -223,7 +221,8 @@ fn by_numbers(lines: &[&str], wanted: &[Option<String>; 4]) -> Option<Head> {
         };
         let Some(delimiter) = DELIMITERS.into_iter().find(fits) else { continue };
         let count = cells(line, delimiter).len();
-        let mut head = Head { above: row, delimiter, places, names: Vec::new(), units: Vec::new() };
+        let mut head =
+            Head { above: row, delimiter, places: places.clone(), names: Vec::new(), units: Vec::new() };
         for above in lines[..row].iter().rev().filter(|line| !line.trim().is_empty()).take(2) {
             let words = cells(above, delimiter);
             if words.len() != count || words.iter().any(|word| number(word, true).is_ok()) {
@@ -252,7 +251,8 @@ fn is_of_units(words: &[String]) -> bool {
 }
 
 /// What is said where no line names the columns: the names that there are, from the line that looks most like a head.
-fn not_found(name: &str, lines: &[&str], wanted: &[Option<String>; 4]) -> IdentifyError {
+fn not_found(name: &str, lines: &[&str], roles: &[Role], wanted: &[Option<String>]) -> MeasuredError {
+    let needed = needed(roles);
     let mut best: Vec<String> = Vec::new();
     for line in lines {
         let delimiter = DELIMITERS.into_iter().find(|mark| line.contains(*mark)).unwrap_or(',');
@@ -271,25 +271,23 @@ fn not_found(name: &str, lines: &[&str], wanted: &[Option<String>; 4]) -> Identi
             best = words;
         }
     }
-    let missing: Vec<&str> = (0..2).map(|role| wanted[role].as_deref().unwrap_or(ROLES[role])).collect();
+    let missing: Vec<String> = (0..needed)
+        .map(|role| format!("{:?}", wanted[role].as_deref().unwrap_or(roles[role].name)))
+        .collect();
+    let missing: Vec<&str> = missing.iter().map(String::as_str).collect();
+    let numbered = choice(roles, |role| (role + 1).to_string());
     let (there, help) = if best.is_empty() {
-        (
-            "there are no names".to_owned(),
-            "say which is which, by numbers from 1: --columns \"displacement=1,force=2\"".to_owned(),
-        )
+        ("there are no names".to_owned(), format!("say which is which, by numbers from 1: {numbered}"))
     } else {
         let quoted = |place: usize| best.get(place).map(|cell| name_and_unit(cell).0).unwrap_or_default();
-        let example = if best.len() >= 2 && best[0].len() + best[1].len() < 40 {
-            format!("--columns \"displacement={},force={}\"", quoted(0), quoted(1))
-        } else {
-            "--columns \"displacement=1,force=2\"".to_owned()
-        };
+        let short = best.iter().take(needed).map(String::len).sum::<usize>() < 20 * needed;
+        let example = if best.len() >= needed && short { choice(roles, quoted) } else { numbered };
         (
             format!("it has: {}", best.join(" | ")),
             format!("say which is which, by names or by numbers from 1, such as {example}"),
         )
     };
-    refused(name, &format!("no line names the columns {:?} and {:?}; {there}", missing[0], missing[1]), &help)
+    refused(name, &format!("no line names the columns {}; {there}", listed(&missing)), &help)
 }
 
 /// The name of a column and the unit behind it; a bracket that is not closed belongs to the name.

@@ -1,38 +1,37 @@
-//! Units of a log, turned into those of the case, and said.
+//! Units of measured columns, turned into those of a case, and said.
 
 use crate::case::{Units, conversion, known_units};
 
-use super::error::{IdentifyError, refused};
+use super::asked::Asked;
+use super::error::{MeasuredError, refused};
 use super::head::MASSES;
-use super::log::Table;
-use super::request::Request;
+use super::role::{Kind, Role, listed};
+use super::table::Table;
 
-/// Factors from the columns of a log to the units of the case: of displacements, forces, normal forces.
+/// Factors from the columns of a table to the units of the case, by role; 1 of numbers without a unit.
 ///
 /// # Errors
-/// When a unit is none of a length or a force.
+/// When a unit is none of what its column holds.
 pub fn scales(
     table: &Table,
-    request: &Request,
+    (roles, asked): (&[Role], &Asked),
     units: Option<&Units>,
     notes: &mut Vec<String>,
-) -> Result<[f64; 3], IdentifyError> {
-    let mut found = [1.0; 3];
+) -> Result<Vec<f64>, MeasuredError> {
+    let mut found = vec![1.0; roles.len()];
     let own = units.cloned().unwrap_or_else(|| Units::new("m", "N"));
-    for (slot, role, what, base) in
-        [(0, 0, "displacement", "m"), (1, 1, "force", "N"), (2, 3, "normal_force", "N")]
-    {
-        let Some(column) = &table.columns[role] else { continue };
-        let given = request.units.iter().find(|(of, _)| of == what).map(|(_, unit)| unit.clone());
+    for ((role, column), found) in roles.iter().zip(&table.columns).zip(&mut found) {
+        let (Some((kind, base)), Some(column)) = (role.kind.unit(), column) else { continue };
+        let given = asked.unit_of(role.name).map(str::to_owned);
         let Some(unit) = given.or_else(|| column.unit.clone()) else {
             notes.push(format!("column {:?} names no unit: taken in that of the case", column.name));
             continue;
         };
-        let (kind, into) = if slot == 0 { ("length", &own.length) } else { ("force", &own.force) };
+        let into = if role.kind == Kind::Length { &own.length } else { &own.force };
         if unit == *into {
             continue;
         }
-        let is_mass = kind == "force" && MASSES.contains(&unit.as_str());
+        let is_mass = role.kind == Kind::Force && MASSES.contains(&unit.as_str());
         let weight = if is_mass { format!("{unit}f") } else { unit.clone() };
         let Ok(into_own) = conversion(&weight, kind, Some(&own)) else {
             return Err(refused(
@@ -41,10 +40,10 @@ pub fn scales(
                     "column {:?} is in {unit:?}, and the case in {into:?}: nothing is known between them",
                     column.name
                 ),
-                &format!("--units \"{what}={base}\" says what it is in; {}", known_units(kind)),
+                &format!("--units \"{}={base}\" says what it is in; {}", role.name, known_units(kind)),
             ));
         };
-        found[slot] = into_own.factor();
+        *found = into_own.factor();
         if is_mass {
             notes.push(format!("column {:?} is in {unit}: taken as the weight of that mass", column.name));
         }
@@ -55,13 +54,13 @@ pub fn scales(
             ));
         }
     }
-    if let Some((of, _)) =
-        request.units.iter().find(|(of, _)| !["displacement", "force", "normal_force"].contains(&of.as_str()))
-    {
+    let with_units: Vec<&str> =
+        roles.iter().filter(|role| role.kind.unit().is_some()).map(|role| role.name).collect();
+    if let Some((of, _)) = asked.units.iter().find(|(of, _)| !with_units.contains(&of.as_str())) {
         return Err(refused(
             &table.name,
             &format!("units: {of:?} has none here"),
-            "units are those of displacement, force and normal_force",
+            &format!("units are those of {}", listed(&with_units)),
         ));
     }
     Ok(found)

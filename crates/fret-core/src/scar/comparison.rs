@@ -1,0 +1,172 @@
+//! A measured scar beside a computed one.
+
+use super::hollow::Hollow;
+use super::levelled::levelled;
+use super::line::{Line, Measured};
+use crate::measured::{MeasuredError, refused};
+
+/// Wear depths below this share of the largest are no scar.
+const WORN: f64 = 1e-3;
+
+/// A number of both scars.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair {
+    /// Its name.
+    pub name: &'static str,
+    /// What its unit is one of.
+    pub kind: &'static str,
+    /// Of the computed scar.
+    pub computed: f64,
+    /// Of the measured one.
+    pub measured: f64,
+}
+
+impl Pair {
+    /// Computed less measured, over measured [-].
+    pub fn difference(&self) -> f64 {
+        self.computed / self.measured - 1.0
+    }
+}
+
+/// A measured scar beside a computed one, over the cells of the computed one that the line reaches.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// Name of the measured line.
+    pub name: String,
+    /// Positions of the cells, of the computed scar [length].
+    pub x: Vec<f64>,
+    /// Computed wear depths [length].
+    pub computed: Vec<f64>,
+    /// Measured depths, in the mean over each cell [length].
+    pub measured: Vec<f64>,
+    /// Depth, width, area.
+    pub numbers: Vec<Pair>,
+    /// Root mean square of the difference over the cells of either scar [length].
+    pub difference: f64,
+    /// By how much the measured line was moved along x, so that the middles of both scars lie together [length].
+    pub moved: f64,
+    /// Slope and height at position 0 that were taken off the measured line.
+    pub taken_off: [f64; 2],
+    /// Root mean square of the measured line beside the scar [length].
+    pub beside: f64,
+    /// What was done and taken for granted.
+    pub notes: Vec<String>,
+}
+
+/// Compares a computed wear depth along a line of cells with a measured line: tilt and offset are those of the surroundings of the scar, and
+/// the middles of both scars are laid together.
+///
+/// # Errors
+/// When there is no scar on either side, or the line ends in it.
+pub fn compare(computed: &Line, width: f64, measured: Measured) -> Result<Comparison, MeasuredError> {
+    let Measured { name, line, mut notes } = measured;
+    let Some(own) = Hollow::of(computed) else {
+        return Err(refused(&name, "the computed surfaces are not worn", "a run with [wear], to its end"));
+    };
+    let level = levelled(&name, &line)?;
+    let scar =
+        Hollow::of(&level.line).ok_or_else(|| refused(&name, "no scar: the line has no hollow", ""))?;
+    let moved = own.middle - scar.middle;
+    let mut both = [Vec::new(), Vec::new(), Vec::new()];
+    for (x, depth) in computed.x.iter().zip(&computed.z) {
+        if let Some(mean) = level.line.mean_over(x - moved, width) {
+            for (list, value) in both.iter_mut().zip([*x, *depth, mean]) {
+                list.push(value);
+            }
+        }
+    }
+    let [x, depths, means] = both;
+    let of = |z: &Vec<f64>| Hollow::of(&Line { x: x.clone(), z: z.clone() });
+    let (Some(one), Some(other)) = (of(&depths), of(&means)) else {
+        return Err(refused(&name, "the line does not reach the computed scar", "a longer line"));
+    };
+    let is_worn = |k: &usize| depths[*k] > WORN * one.depth || means[*k] > WORN * other.depth;
+    let worn: Vec<f64> = (0..x.len()).filter(is_worn).map(|k| depths[k] - means[k]).collect();
+    let difference = (worn.iter().map(|off| off * off).sum::<f64>() / worn.len().max(1) as f64).sqrt();
+    if level.counts_depths {
+        notes.push("the line rises in the scar: taken as depths".to_owned());
+    }
+    let reached = computed.x.len() - x.len();
+    let outside = computed.x.iter().zip(&computed.z).filter(|(at, _)| !x.contains(at));
+    if outside.clone().any(|(_, depth)| *depth > WORN * own.depth) {
+        return Err(refused(
+            &name,
+            &format!("the line does not reach {reached} cells, and some of them are worn in the computation"),
+            "a line that runs past the computed scar on both sides",
+        ));
+    }
+    let pair =
+        |name, kind, of: fn(&Hollow) -> f64| Pair { name, kind, computed: of(&one), measured: of(&other) };
+    let numbers = vec![
+        pair("depth", "length", |hollow| hollow.depth),
+        pair("width", "length", |hollow| hollow.width),
+        pair("area", "length^2", |hollow| hollow.area),
+    ];
+    Ok(Comparison {
+        name,
+        numbers,
+        difference,
+        moved,
+        taken_off: [level.slope, level.offset],
+        beside: level.beside,
+        notes,
+        x,
+        computed: depths,
+        measured: means,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parabola(depth: f64, half: f64, x: f64) -> f64 {
+        (depth * (1.0 - (x / half).powi(2))).max(0.0)
+    }
+
+    fn cells() -> Vec<f64> {
+        (0..128).map(|k| 0.1 * (f64::from(k) - 63.5)).collect()
+    }
+
+    /// A line of 700 heights over a leaning surface, from another place and with ripples beside and in the scar.
+    fn measured(depth: f64, half: f64) -> Measured {
+        let x: Vec<f64> = (0..700).map(|k| 100.0 + 0.02 * f64::from(k)).collect();
+        let z = x.iter().map(|x| 3.0 - 0.01 * x - parabola(depth, half, x - 107.0)).collect();
+        Measured { name: "line".to_owned(), line: Line { x, z }, notes: Vec::new() }
+    }
+
+    #[test]
+    fn a_scar_of_two_thirds_of_the_depth_and_nine_tenths_of_the_width_is_told_so() {
+        let x = cells();
+        let z = x.iter().map(|x| parabola(0.2, 3.6, *x)).collect();
+        let found = compare(&Line { x, z }, 0.1, measured(0.3, 4.0)).unwrap();
+        let off: Vec<f64> = found.numbers.iter().map(Pair::difference).collect();
+        // cells of a fortieth of the width: their means are off by the curvature, 4e-4 of the depth at most
+        for (off, right) in off.iter().zip([2.0 / 3.0 - 1.0, -0.1, 0.6 - 1.0]) {
+            assert!((off - right).abs() < 2e-3, "{off} for {right}");
+        }
+        assert!((found.moved + 107.0).abs() < 1e-3, "{}", found.moved);
+        assert!((found.taken_off[0] + 0.01).abs() < 1e-6, "{:?}", found.taken_off);
+        // the difference of two parabolas over the wider one: its root mean square by the integral over |x| < 4
+        let square = |x: f64| (parabola(0.2, 3.6, x) - parabola(0.3, 4.0, x)).powi(2);
+        let right: f64 = (0..8000).map(|k| square((f64::from(k) + 0.5) * 5e-4)).sum::<f64>() / 8000.0;
+        assert!(
+            (found.difference / right.sqrt() - 1.0).abs() < 0.01,
+            "{} for {}",
+            found.difference,
+            right.sqrt()
+        );
+    }
+
+    #[test]
+    fn what_cannot_be_compared_is_refused() {
+        let flat = Line { x: cells(), z: vec![0.0; 128] };
+        assert!(compare(&flat, 0.1, measured(0.3, 4.0)).unwrap_err().what.contains("not worn"));
+        let x = cells();
+        let wide = Line { z: x.iter().map(|x| parabola(0.2, 6.3, *x)).collect(), x };
+        let Measured { line, .. } = measured(0.3, 2.0);
+        let short = Line { x: line.x[150..550].to_vec(), z: line.z[150..550].to_vec() };
+        let short = Measured { name: "line".to_owned(), line: short, notes: Vec::new() };
+        assert!(compare(&wide, 0.1, short).unwrap_err().what.contains("does not reach"));
+    }
+}
