@@ -47,6 +47,7 @@ mod reduced_contact;
 mod refinement;
 mod resumed;
 mod rig;
+mod rolling;
 mod rough_cases;
 mod rough_surfaces;
 mod second_order;

@@ -252,7 +252,7 @@ impl<'a> Certifier<'a> {
                 (_, held) => held,
             });
             let bulk_stress = held.bulk_stress;
-            before.found = LoadStep { normal, tangential: [x, y], twist, tilt, bulk_stress };
+            before.found = LoadStep { normal, tangential: [x, y], twist, tilt, bulk_stress, roll: held.roll };
             if let Some(last) = self.past.loads.last_mut() {
                 (last.normal, last.tangential) = (normal, [x, y]);
             }

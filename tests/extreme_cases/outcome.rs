@@ -166,7 +166,7 @@ fn moments(ended: &Ended) -> Option<[f64; 2]> {
     let at_end = |control: &Option<StageControl>, from: f64, now: f64| match control {
         None => Some(now),
         Some(control @ StageControl::Force(_)) => Some(stage.value(control, from, k, stage.times().as_ref())),
-        Some(StageControl::Motion(_) | StageControl::FarEnd(_)) => None,
+        Some(StageControl::Motion(_) | StageControl::FarEnd(_) | StageControl::Rate(_)) => None,
     };
     let asked = at_end(&stage.twist, start.twist_moment, last.record.twist_moment)?;
     let falls =

@@ -19,6 +19,7 @@ use super::output::{FIELD_NAMES, Output};
 use super::repeating::repeats;
 use super::residual::residual;
 use super::rig::{log_columns, rig};
+use super::rolling::rolling;
 use super::shape::profile;
 use super::stages::{sliding, stages};
 use super::stress::stress;
@@ -97,6 +98,7 @@ pub(super) fn case(
         sliding(&mut judge, friction, &file.load, stages, limit);
     }
     let kinematics = kinematics(&mut judge, &Concerned { file: &file, loading });
+    rolling(&mut judge, &file, loading, (kinematics, profile.as_ref()));
     let wears = (file.wear.as_ref(), file.stress.as_ref(), kinematics);
     let wear = wear(&mut judge, wears, (bodies.as_ref(), files), stages.as_deref(), frictionless);
     let output = output(&mut judge, file.output.as_ref());

@@ -63,7 +63,7 @@ pub(super) fn controls(
             };
             let plane = match way.kind {
                 Kind::MeanGap => counted_from(judge, place, span.clone(), (!cyclic).then_some(value)),
-                Kind::Force | Kind::Motion | Kind::FarEnd => Some(0.0),
+                Kind::Force | Kind::Motion | Kind::FarEnd | Kind::Rate => Some(0.0),
             };
             controls[freedom] = plane.map(|plane| StageControl::new(way.kind, path, plane));
             by[freedom] = key;
@@ -109,7 +109,7 @@ fn from_table(judge: &mut Judge, (place, span): (&str, &Range<usize>), columns: 
         let Some(values) = columns.get(&name) else { continue };
         let plane = match way.kind {
             Kind::MeanGap => counted_from(judge, place, span.clone(), values.iter().copied()),
-            Kind::Force | Kind::Motion | Kind::FarEnd => Some(0.0),
+            Kind::Force | Kind::Motion | Kind::FarEnd | Kind::Rate => Some(0.0),
         };
         let path = Path::Through(values.clone());
         controls[freedom] = plane.map(|plane| StageControl::new(way.kind, path, plane));

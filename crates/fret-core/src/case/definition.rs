@@ -186,6 +186,12 @@ impl Case {
         way_to_slide(self.periodic, Some(&self.bodies))
     }
 
+    /// Whether the contact rolls in any stage, or has rolled where the history starts.
+    pub fn rolls(&self) -> bool {
+        let starts = self.start.is_some_and(|loads| loads.roll != [0.0; 2]);
+        starts || self.stages.iter().any(Stage::rolls)
+    }
+
     /// Whether there is no friction anywhere in the whole history.
     pub fn is_frictionless(&self) -> bool {
         let changes = self.stages.iter().filter_map(|stage| stage.friction.as_ref());

@@ -8,7 +8,7 @@ use super::side::Side;
 use super::stage_file::{AutoWord, StageFile, WearFile};
 use super::surface_file::{FrictionFile, LENGTH, ProfileFile};
 use crate::document::{At, Range, Table};
-use crate::model::{Beyond, Displacement, Integration, Scheme};
+use crate::model::{Beyond, Displacement, Frame, Integration, Scheme};
 
 /// A fretting contact: bodies, first gap, friction, and a loading history. Any consistent system of units.
 #[derive(Table, JsonSchema)]
@@ -55,6 +55,9 @@ pub(super) struct KinematicsFile {
     /// topography and wear of the upper body move with it by its shift, and each body wears in its own frame, the lower one in that of the
     /// grid. A table [profile] is then the upper body's. Default: "small".
     pub displacement: Option<At<Displacement>>,
+    /// Where the grid is while the contact rolls: fixed to the "bodies", through which the contact travels, or with the "contact", by whole cells
+    /// in every increment. Default: "bodies".
+    pub frame: Option<At<Frame>>,
 }
 
 /// Stiffness whose inverse is a number, too.

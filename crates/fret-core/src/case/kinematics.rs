@@ -6,7 +6,7 @@ use super::misfits::{Loading, Misfit};
 use super::side::Side;
 use super::surface_file::OfFile;
 use crate::model::controls::{TILT, TWIST};
-use crate::model::{Displacement, Kinematics};
+use crate::model::{Displacement, Frame, Kinematics};
 
 /// What is looked at.
 pub(super) struct Concerned<'a> {
@@ -24,9 +24,12 @@ pub(super) fn kinematics(judge: &mut Judge, concerned: &Concerned<'_>) -> Kinema
     let given = file.kinematics.as_ref().and_then(|given| given.value.displacement.as_ref());
     let moves_with = file.friction.as_ref().and_then(|friction| friction.moves_with.as_ref());
     let displacement = given.map_or_else(Displacement::default, |given| given.value);
+    let frame = file.kinematics.as_ref().and_then(|given| given.value.frame.as_ref());
+    let frame = frame.map_or_else(Frame::default, |given| given.value);
     let kinematics = Kinematics {
         displacement,
         friction_of_upper: moves_with.is_some_and(|given| given.value == Side::Upper),
+        frame,
     };
     if !kinematics.is_finite() {
         if let Some(given) = moves_with.filter(|_| kinematics.friction_of_upper) {

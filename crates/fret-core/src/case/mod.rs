@@ -35,6 +35,7 @@ mod repeating;
 mod residual;
 mod residual_file;
 mod rig;
+mod rolling;
 mod shape;
 mod side;
 mod stage_file;

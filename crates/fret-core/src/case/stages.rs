@@ -225,7 +225,7 @@ fn stage(
     if let Some(columns) = &columns {
         increments = increments.saturating_mul(columns.values().next().map_or(1, Vec::len));
     }
-    let [normal, x, y, twist, tilt_x, tilt_y, lower_x, lower_y, upper_x, upper_y] = controls;
+    let [normal, x, y, twist, tilt_x, tilt_y, lower_x, lower_y, upper_x, upper_y, roll_x, roll_y] = controls;
     let mut stage = Stage {
         name,
         normal,
@@ -233,6 +233,7 @@ fn stage(
         twist,
         tilt: [tilt_x, tilt_y],
         bulk_stress: [[lower_x, lower_y], [upper_x, upper_y]],
+        roll: [roll_x, roll_y],
         increments,
         history_tolerance: auto.then_some(tolerance),
         course: here.course().unwrap_or(Course::Linear),
@@ -367,7 +368,7 @@ impl Stage {
     /// Whether it prescribes more than forces that stay zero. A bulk stress of a contact without friction only adds to the stresses below.
     fn is_tangential_beyond_rest(&self) -> bool {
         let rests = |control: &StageControl| match control {
-            StageControl::Motion(_) | StageControl::FarEnd(_) => false,
+            StageControl::Motion(_) | StageControl::FarEnd(_) | StageControl::Rate(_) => false,
             StageControl::Force(path) => path.is_zero(),
         };
         self.tangential.iter().flatten().any(|control| !rests(control)) || self.twist.is_some()

@@ -140,6 +140,15 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
     real("wall_s", "time spent on the increment", SECONDS, |step| step.wall_s),
     count("contact_cells", "cells in contact", NO_UNIT, |step| step.contact_cells),
     count("stick_cells", "stick cells", NO_UNIT, |step| step.stick_cells),
+    real("roll_x", "distance that the contact has rolled along x", LENGTH, |step| step.roll[0]),
+    real("roll_y", "distance that the contact has rolled along y", LENGTH, |step| step.roll[1]),
+    real_or_none("creepage_x", "displacement of the upper body along x by distance rolled", RATIO, |step| {
+        step.creepage.map(|creepage| creepage[0])
+    }),
+    real_or_none("creepage_y", "displacement of the upper body along y by distance rolled", RATIO, |step| {
+        step.creepage.map(|creepage| creepage[1])
+    }),
+    real_or_none("spin", "rotation of the upper body by distance rolled", "rad/length", |step| step.spin),
     word(
         "regime",
         "sliding condition: apart, full_stick, partial_slip, gross_slip or frictionless",

@@ -79,6 +79,12 @@ pub struct StepRecord {
     pub max_worn_depth: f64,
     /// Mean coefficient of friction over the contact, weighted with the pressure [-].
     pub friction_coefficient: f64,
+    /// Distance that the contact has rolled along x and y [length].
+    pub roll: [f64; 2],
+    /// Rigid displacement of the upper body by distance rolled in the increment, along x and y [-]; `None` where it does not roll.
+    pub creepage: Option<[f64; 2]>,
+    /// Its rotation by distance rolled [rad/length], likewise.
+    pub spin: Option<f64>,
     /// What the contact does.
     pub regime: Regime,
     /// How well the equations hold.

@@ -142,6 +142,7 @@ fn driven(control: StageControl, increments: usize) -> Stage {
         twist: None,
         tilt: [None, None],
         bulk_stress: [[None, None], [None, None]],
+        roll: [None, None],
         increments,
         history_tolerance: None,
         course: Course::Linear,

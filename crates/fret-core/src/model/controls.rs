@@ -4,8 +4,8 @@
 use std::ops::Range;
 
 /// Degrees of freedom: normal, tangential along x and y, about z, tilt along x and y, bulk stress of the lower and of the upper body
-/// along x and y.
-pub const FREEDOMS: usize = 10;
+/// along x and y, roll along x and y.
+pub const FREEDOMS: usize = 12;
 
 /// The normal degree of freedom.
 pub const NORMAL: usize = 0;
@@ -19,6 +19,8 @@ pub const TILT: usize = 4;
 pub const BULK_STRESS: usize = 6;
 /// The first of those of the upper body.
 pub const UPPER_BULK_STRESS: usize = 8;
+/// The first of the rolls.
+pub const ROLL: usize = 10;
 
 /// Which quantity of a degree of freedom is prescribed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,6 +33,8 @@ pub enum Kind {
     FarEnd,
     /// The mean gap between surfaces that repeat; less it is the motion, counted from the mean of the undeformed gap.
     MeanGap,
+    /// The motion of the body by distance rolled.
+    Rate,
 }
 
 /// What a case writes for a control.
@@ -66,7 +70,7 @@ pub struct ControlRow {
     pub freedom: usize,
     /// What a case writes.
     pub form: Form,
-    /// Its ways, the force first.
+    /// Its ways, the force first where there is one.
     pub ways: &'static [Way],
 }
 
@@ -92,10 +96,10 @@ pub fn ways() -> impl Iterator<Item = (&'static ControlRow, &'static Way)> {
     CONTROLS.iter().flat_map(|row| row.ways.iter().map(move |way| (row, way)))
 }
 
-use Kind::{FarEnd, Force, MeanGap, Motion};
+use Kind::{FarEnd, Force, MeanGap, Motion, Rate};
 
 /// All controls.
-pub static CONTROLS: [ControlRow; 6] = [
+pub static CONTROLS: [ControlRow; 7] = [
     ControlRow {
         freedom: NORMAL,
         form: Form::Number,
@@ -155,6 +159,13 @@ pub static CONTROLS: [ControlRow; 6] = [
                 about: "Displacement of the actuator along x and y [length], the far end of the machine's spring ([rig]): shift + tangential force /\nstiffness; at the end, or the amplitude; or \"held\".",
                 phase: "Of the actuator along x and y.",
             },
+            Way {
+                kind: Rate,
+                name: "creepage",
+                unit: "-",
+                about: "Creepage along x and y [-]: rigid displacement of the upper body by distance rolled, the same all along the stage, which has\na `roll`; or \"held\".",
+                phase: "Not available: creepage is the same all along a stage.",
+            },
         ],
     },
     ControlRow {
@@ -174,6 +185,13 @@ pub static CONTROLS: [ControlRow; 6] = [
                 unit: "rad",
                 about: "Rotation of the upper body about z [rad]: at the end, or the amplitude.",
                 phase: "Of the rotation about z.",
+            },
+            Way {
+                kind: Rate,
+                name: "spin",
+                unit: "rad/length",
+                about: "Spin [rad/length]: rotation of the upper body about the middle of the contact by distance rolled, the same all along the stage,\nwhich has a `roll`; with `kinematics.frame = \"contact\"`.",
+                phase: "Not available: spin is the same all along a stage.",
             },
         ],
     },
@@ -219,6 +237,17 @@ pub static CONTROLS: [ControlRow; 6] = [
             phase: "Of that of the upper body.",
         }],
     },
+    ControlRow {
+        freedom: ROLL,
+        form: Form::PairOrNumber,
+        ways: &[Way {
+            kind: Motion,
+            name: "roll",
+            unit: "length",
+            about: "Distance that the contact has rolled along both surfaces, along x and y [length]: at the end, or the amplitude; or \"held\". A\nnumber in a line contact.",
+            phase: "Of the distance rolled.",
+        }],
+    },
 ];
 
 #[cfg(test)]
@@ -229,10 +258,11 @@ mod tests {
     fn every_degree_of_freedom_belongs_to_one_control() {
         let all: Vec<usize> = CONTROLS.iter().flat_map(ControlRow::freedoms).collect();
         assert_eq!(all, (0..FREEDOMS).collect::<Vec<_>>());
-        // the first way is the force, and no way is there twice
+        // the first way is the force but of what only moves, and no way is there twice
         for row in &CONTROLS {
-            let kinds: Vec<Kind> = row.ways.iter().map(|way| way.kind).collect();
-            assert_eq!(kinds, [Force, Motion, FarEnd, MeanGap][..kinds.len()]);
+            let kinds: Vec<Kind> = row.ways.iter().map(|way| way.kind).filter(|kind| *kind != Rate).collect();
+            let first = usize::from(row.freedom == ROLL);
+            assert_eq!(kinds, [Force, Motion, FarEnd, MeanGap][first..first + kinds.len()]);
         }
     }
 }

@@ -18,6 +18,18 @@ pub enum Displacement {
     Finite,
 }
 
+/// Where the grid is while a contact rolls.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, Table, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "FrameFile")]
+pub enum Frame {
+    /// Fixed to the bodies: the contact travels through it.
+    #[default]
+    Bodies,
+    /// With the contact, by whole cells: the bodies travel through it.
+    Contact,
+}
+
 /// How the surfaces of a case move.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Kinematics {
@@ -25,6 +37,8 @@ pub struct Kinematics {
     pub displacement: Displacement,
     /// Whether a friction map is the upper body's, and moves with it.
     pub friction_of_upper: bool,
+    /// Where the grid is while the contact rolls.
+    pub frame: Frame,
 }
 
 impl Kinematics {

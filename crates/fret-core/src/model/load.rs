@@ -49,6 +49,8 @@ pub struct LoadStep {
     pub tilt: [Control; 2],
     /// Bulk stress of the substrates of the lower and the upper body, each along x and y [pressure], tension positive.
     pub bulk_stress: [[f64; 2]; 2],
+    /// Distance rolled along x and y [length].
+    pub roll: [f64; 2],
 }
 
 /// Where one rigid degree of freedom is: what each kind of control would have prescribed to bring it there.
@@ -81,25 +83,28 @@ impl LoadStep {
         twist: Control::Motion(0.0),
         tilt: [Control::Motion(0.0); 2],
         bulk_stress: [[0.0; 2]; 2],
+        roll: [0.0; 2],
     };
 
     /// What is prescribed for each degree of freedom (`controls.rs`); stresses as forces.
     pub fn controls(&self) -> [Control; FREEDOMS] {
-        let Self { normal, tangential: [x, y], twist, tilt: [tilt_x, tilt_y], bulk_stress } = *self;
+        let Self { normal, tangential: [x, y], twist, tilt: [tilt_x, tilt_y], bulk_stress, roll } = *self;
+        let [roll_x, roll_y] = roll.map(Control::Motion);
         let [lower, upper] = bulk_stress.map(|stress| stress.map(Control::Force));
-        [normal, x, y, twist, tilt_x, tilt_y, lower[0], lower[1], upper[0], upper[1]]
+        [normal, x, y, twist, tilt_x, tilt_y, lower[0], lower[1], upper[0], upper[1], roll_x, roll_y]
     }
 
     /// The load that prescribes these.
     pub fn of(controls: [Control; FREEDOMS]) -> Self {
         let [normal, x, y, twist, tilt_x, tilt_y, bulk @ ..] = controls;
-        let [lower_x, lower_y, upper_x, upper_y] = bulk.map(Control::value);
+        let [lower_x, lower_y, upper_x, upper_y, roll_x, roll_y] = bulk.map(Control::value);
         Self {
             normal,
             tangential: [x, y],
             twist,
             tilt: [tilt_x, tilt_y],
             bulk_stress: [[lower_x, lower_y], [upper_x, upper_y]],
+            roll: [roll_x, roll_y],
         }
     }
 

@@ -130,6 +130,16 @@ impl Profile {
         gap
     }
 
+    /// The undeformed gap where the contact has rolled by `cells` along each axis: paraboloids have gone along, waves and heights, which belong to
+    /// places of the surfaces, stay.
+    pub fn gap_rolled(&self, grid: &SurfaceGrid, cells: [f64; 2]) -> Array2<f64> {
+        let (rolling, fixed) = self.shapes.iter().partition(|shape| shape.curvatures().is_some());
+        let (rolling, fixed): (Vec<Shape>, Vec<Shape>) = (rolling, fixed);
+        let of_upper = [rolling.len(), 0];
+        let shapes = rolling.into_iter().chain(fixed).collect();
+        Self { shapes, heights: self.heights.clone(), of_upper }.gap_with_upper_at(grid, cells, false)
+    }
+
     /// Lowest sum of shapes and heights of a cell [length].
     fn first_touch(&self, grid: &SurfaceGrid) -> f64 {
         let mut sum = Array2::from_shape_fn(grid.cells(), |(i, j)| {

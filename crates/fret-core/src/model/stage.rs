@@ -24,6 +24,9 @@ pub struct Stage<M = CellMap> {
     /// What changes of the bulk stresses of the lower and of the upper body along x and y, if anything; forces all.
     #[serde(default, skip_serializing_if = "are_all_none")]
     pub bulk_stress: [[Option<StageControl>; 2]; 2],
+    /// What changes of the distance rolled along x and y, if anything.
+    #[serde(skip_serializing_if = "are_none")]
+    pub roll: [Option<StageControl>; 2],
     /// Increments of the stage, or of one cycle, all rows of a table included.
     pub increments: usize,
     /// Each increment is solved in as many parts as this bound on the error of its history asks for (in shares of the way that the
@@ -55,6 +58,8 @@ pub enum StageControl {
     Motion(Path),
     /// The motion of the far end of the machine's spring [length].
     FarEnd(Path),
+    /// A motion by distance rolled [-], or [rad/length], the same all along the stage.
+    Rate(Path),
 }
 
 /// How a stage runs from where it starts.
@@ -102,6 +107,14 @@ pub enum Path {
 }
 
 impl Path {
+    /// Its target, amplitude or last value.
+    pub fn last(&self) -> f64 {
+        match self {
+            Self::To(value) | Self::Wave { amplitude: value, .. } => *value,
+            Self::Through(values) => values.last().copied().unwrap_or(0.0),
+        }
+    }
+
     /// Whether it is zero all along, when it starts there.
     pub fn is_zero(&self) -> bool {
         match self {
@@ -171,9 +184,15 @@ impl<M> Stage<M> {
                 let done = k as f64 / self.increments as f64;
                 let share = match (course, control) {
                     (Course::Cubic, StageControl::Force(_)) => done.powi(3),
-                    (Course::Cubic, StageControl::Motion(_) | StageControl::FarEnd(_))
+                    (
+                        Course::Cubic,
+                        StageControl::Motion(_) | StageControl::FarEnd(_) | StageControl::Rate(_),
+                    )
                     | (Course::Square, StageControl::Force(_)) => done.powi(2),
-                    (Course::Square, StageControl::Motion(_) | StageControl::FarEnd(_)) => done * done.cbrt(),
+                    (
+                        Course::Square,
+                        StageControl::Motion(_) | StageControl::FarEnd(_) | StageControl::Rate(_),
+                    ) => done * done.cbrt(),
                     (Course::Linear | Course::Cycles(_), _) => done,
                 };
                 start + (target - start) * share
@@ -210,17 +229,44 @@ impl<M> Stage<M> {
         let mut controls = start.controls();
         for (control, now) in self.by_freedom().into_iter().zip(&mut controls) {
             let Some(control) = control else { continue };
+            if let StageControl::Rate(rate) = control {
+                *now = Control::Motion(now.value() + rate.last() * self.rolled(start, k));
+                continue;
+            }
             *now = control.prescribing(self.value(control, now.value(), k, times.as_ref()));
         }
         LoadStep::of(controls)
+    }
+
+    /// Distance [length] that the stage has rolled by the end of increment `k`, on its straight way.
+    fn rolled(&self, start: &LoadStep, k: usize) -> f64 {
+        let along = |axis: usize| {
+            let from = start.roll[axis];
+            self.roll[axis].as_ref().map_or(0.0, |control| self.value(control, from, k, None) - from)
+        };
+        along(0).hypot(along(1))
     }
 
     /// What it prescribes for each degree of freedom (`model/controls.rs`).
     pub fn by_freedom(&self) -> [Option<&StageControl>; FREEDOMS] {
         let [lower, upper] = &self.bulk_stress;
         let [[x, y], tilt] = [&self.tangential, &self.tilt];
-        [&self.normal, x, y, &self.twist, &tilt[0], &tilt[1], &lower[0], &lower[1], &upper[0], &upper[1]]
-            .map(Option::as_ref)
+        let roll = &self.roll;
+        [
+            &self.normal,
+            x,
+            y,
+            &self.twist,
+            &tilt[0],
+            &tilt[1],
+            &lower[0],
+            &lower[1],
+            &upper[0],
+            &upper[1],
+            &roll[0],
+            &roll[1],
+        ]
+        .map(Option::as_ref)
     }
 
     /// All that the stage prescribes.
@@ -231,6 +277,11 @@ impl<M> Stage<M> {
     /// Whether the stage prescribes a bulk stress.
     pub fn stretches(&self) -> bool {
         self.bulk_stress.iter().flatten().any(Option::is_some)
+    }
+
+    /// Whether the stage rolls.
+    pub fn rolls(&self) -> bool {
+        self.roll.iter().any(Option::is_some)
     }
 
     /// Whether the stage prescribes a tilt or its moment.
@@ -247,12 +298,13 @@ impl StageControl {
             Kind::Motion => Self::Motion(path),
             Kind::FarEnd => Self::FarEnd(path),
             Kind::MeanGap => Self::Motion(path.below(mean_plane)),
+            Kind::Rate => Self::Rate(path),
         }
     }
 
     /// What it runs through.
     pub fn path(&self) -> &Path {
-        let (Self::Force(path) | Self::Motion(path) | Self::FarEnd(path)) = self;
+        let (Self::Force(path) | Self::Motion(path) | Self::FarEnd(path) | Self::Rate(path)) = self;
         path
     }
 
@@ -260,14 +312,14 @@ impl StageControl {
     pub fn prescribing(&self, value: f64) -> Control {
         match self {
             Self::Force(_) => Control::Force(value),
-            Self::Motion(_) => Control::Motion(value),
+            Self::Motion(_) | Self::Rate(_) => Control::Motion(value),
             Self::FarEnd(_) => Control::FarEnd(value),
         }
     }
 
     /// Whether it prescribes a motion, of the body or of the actuator.
     pub fn is_motion(&self) -> bool {
-        matches!(self, Self::Motion(_) | Self::FarEnd(_))
+        matches!(self, Self::Motion(_) | Self::FarEnd(_) | Self::Rate(_))
     }
 }
 
@@ -302,6 +354,7 @@ fn known(
 ) -> Option<Control> {
     let path = control.path();
     match (control, start) {
+        (StageControl::Rate(_), _) => None,
         (StageControl::Force(_), Some(Control::Force(from)))
         | (StageControl::Motion(_), Some(Control::Motion(from)))
         | (StageControl::FarEnd(_), Some(Control::FarEnd(from))) => {

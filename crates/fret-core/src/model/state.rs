@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::accumulated::AccumulatedSlip;
 use super::load::LoadStep;
 use crate::fields::stored::{self, Number};
-use crate::fields::{copied, is_zero};
+use crate::fields::{Outside, carried, copied, is_zero};
 
 /// What a cell of the surface does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -68,6 +68,8 @@ pub struct ContactState {
     pub tilt: [f64; 2],
     /// Bulk stress of the lower and of the upper substrate along x and y [pressure].
     pub bulk_stress: [[f64; 2]; 2],
+    /// Distance that the contact has rolled along x and y [length].
+    pub roll: [f64; 2],
     /// Energy dissipated by friction since the start [force x length]; with wear that of all cycles that computed ones stand for.
     pub dissipated_energy: f64,
     /// Elastic energy that the tractions of the contact store in both bodies and the interface [force x length]: half the sum of tractions
@@ -106,12 +108,35 @@ impl ContactState {
             twist: 0.0,
             tilt: [0.0; 2],
             bulk_stress: [[0.0; 2]; 2],
+            roll: [0.0; 2],
             dissipated_energy: 0.0,
             elastic_energy: 0.0,
             external_work: 0.0,
             wear_work: 0.0,
             unresolved_energy: 0.0,
             bulk_work: 0.0,
+        }
+    }
+
+    /// The state of bodies that have been carried over the grid by whole cells along each axis: what leaves the grid is gone.
+    #[must_use]
+    pub fn carried(&self, cells: [f64; 2]) -> Self {
+        let moved = |field: &Array2<f64>| carried(field, cells, Outside::Zero);
+        let numbers = self.zone.mapv(|zone| f64::from(zone as u8));
+        let zone = moved(&numbers).mapv(|number| match number as u8 {
+            1 => Zone::Stick,
+            2 => Zone::Slip,
+            _ => Zone::Open,
+        });
+        Self {
+            pressure: moved(&self.pressure),
+            shear: self.shear.each_ref().map(moved),
+            slip: self.slip.each_ref().map(moved),
+            zone,
+            worn_depth: self.worn_depth.clone(),
+            upper_worn_depth: self.upper_worn_depth.clone(),
+            accumulated: self.accumulated.clone(),
+            ..*self
         }
     }
 
@@ -158,7 +183,7 @@ impl ContactState {
         let [sx, sy] = &self.slip;
         let [tilt_x, tilt_y] = self.tilt;
         let motions = [self.approach, self.shift[0], self.shift[1], self.twist, tilt_x, tilt_y];
-        let numbers = motions.into_iter().chain(self.bulk_stress.into_iter().flatten());
+        let numbers = motions.into_iter().chain(self.bulk_stress.into_iter().flatten()).chain(self.roll);
         let energies = [self.dissipated_energy, self.elastic_energy, self.external_work, self.wear_work];
         let mut numbers = numbers.chain(energies).chain([self.unresolved_energy, self.bulk_work]);
         let field = |field: &Array2<f64>| field.dim() == cells.into() && field.iter().all(|v| v.is_finite());

@@ -144,6 +144,7 @@ impl Symmetry {
                 if self.axes()[axis] { Control::Motion(state.tilt[axis]) } else { part(load.tilt[axis]) }
             }),
             bulk_stress: load.bulk_stress,
+            roll: load.roll,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::loaded::is_loaded;
 use crate::case::{Case, walk};
-use crate::model::{ContactState, Control, Motion, SurfaceGrid};
+use crate::model::{ContactState, Control, Frame, LoadStep, Motion, SurfaceGrid};
 
 /// Whether the upper body moves along an axis (0: x, 1: y) by more than positions of surfaces are rounded to, as far as the case tells. Where a
 /// force or a spring moves it, it may.
@@ -28,15 +28,50 @@ pub fn moves_along(case: &Case, grid: &SurfaceGrid, axis: usize, start: Option<&
     !stay
 }
 
+/// Whether the contact rolls along an axis (0: x, 1: y).
+pub fn rolls_along(case: &Case, axis: usize) -> bool {
+    case.start.is_some_and(|loads| loads.roll[axis] != 0.0)
+        || case.stages.iter().filter_map(|stage| stage.roll[axis].as_ref()).any(|roll| !roll.path().is_zero())
+}
+
+/// Refuses, in the frame of a contact that rolls, increments by parts of cells: in words, the stage and the cells of an increment.
+pub fn parts_of_cells(case: &Case, grid: &SurfaceGrid) -> Option<(usize, f64)> {
+    if case.kinematics.frame != Frame::Contact || !case.rolls() {
+        return None;
+    }
+    let mut held = case.start.unwrap_or(LoadStep::FREE);
+    for (number, stage) in case.stages.iter().enumerate() {
+        let start = held;
+        for k in 1..=stage.increments_in_all() {
+            let load = stage.load(&start, k);
+            for axis in 0..2 {
+                let cells = (load.roll[axis] - held.roll[axis]) / grid.spacing()[axis];
+                let is_still = grid.is_line() && axis == 1;
+                if !is_still && (cells - cells.round()).abs() > 1e-6 {
+                    return Some((number, cells));
+                }
+            }
+            held.roll = load.roll;
+        }
+    }
+    None
+}
+
 /// Side lengths of an automatic grid on which the contact may move by the largest prescribed shift either way.
 pub fn with_room_to_move(case: &Case, size: [f64; 2]) -> [f64; 2] {
-    if !case.kinematics.is_finite() {
+    let mut most = [0.0_f64; 2];
+    if case.rolls() && case.kinematics.frame == Frame::Bodies {
+        for (axis, most) in most.iter_mut().enumerate() {
+            let rolls = case.stages.iter().filter_map(|stage| stage.roll[axis].as_ref());
+            *most = rolls.map(|roll| roll.path().last().abs()).fold(0.0, f64::max);
+        }
+    } else if !case.kinematics.is_finite() {
         return size;
     }
-    let mut most = [0.0_f64; 2];
+    let finite = case.kinematics.is_finite();
     walk(case.start.as_ref(), &case.stages, |_, [_, x, y, _]| {
         for (most, control) in most.iter_mut().zip([x, y]) {
-            if let Some(Control::Motion(shift) | Control::FarEnd(shift)) = control {
+            if let (true, Some(Control::Motion(shift) | Control::FarEnd(shift))) = (finite, control) {
                 *most = most.max(shift.abs());
             }
         }

@@ -1,7 +1,7 @@
 //! Whether a scene and its loads are their own mirror image, so that a half or a quarter of the grid stands for the whole.
 
 use super::loaded::{asks_for_something, is_loaded};
-use super::moving::moves_along;
+use super::moving::{moves_along, rolls_along};
 use crate::case::Case;
 use crate::model::{BulkCompliance, ContactState, SurfaceGrid, Symmetry};
 use crate::solver::Coupling;
@@ -26,16 +26,17 @@ pub fn symmetry(
         return Symmetry::NONE;
     }
     let stretched = (0..2).any(|axis| is_stretched(case, axis, start));
-    let moves = [0, 1].map(|axis| moves_along(case, grid, axis, start));
+    let moves = [0, 1].map(|axis| moves_along(case, grid, axis, start) || rolls_along(case, axis));
     let coupled = coupling == Coupling::Coupled || stretched || moves != [false; 2];
-    let odd_shear = match (coupling, [is_loaded(case, 0, start), is_loaded(case, 1, start)]) {
-        (Coupling::Frictionless, _) | (_, [false, false]) => {
-            [(!moves[0]).then_some(0), (!moves[1]).then_some(1)]
-        }
+    let mut odd_shear = match (coupling, [is_loaded(case, 0, start), is_loaded(case, 1, start)]) {
+        (Coupling::Frictionless, _) | (_, [false, false]) => [Some(0), Some(1)],
         (_, [true, false]) => [(!coupled).then_some(1), Some(1)],
         (_, [false, true]) => [Some(0), (!coupled).then_some(0)],
         (_, [true, true]) => return Symmetry::NONE,
     };
+    for (odd, moves) in odd_shear.iter_mut().zip(moves) {
+        *odd = odd.filter(|_| !moves);
+    }
     let gap = case.profile.gap(grid);
     let frictions = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
     let maps: Vec<_> =

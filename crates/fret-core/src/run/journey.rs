@@ -12,7 +12,7 @@ use super::moving::{Stepper, upper_wear_over_grid};
 use super::observer::{Iteration, Observer};
 use super::pair_compliance::PairCompliance;
 use super::plausibility::Gauge;
-use super::recording::{kept, record, whole};
+use super::recording::{kept, rates, record, whole};
 use super::records::Records;
 use super::refinement::{DivisionError, Refinement, Span, in_halves};
 use super::run_error::{RunError, run_error, too_thin};
@@ -254,7 +254,9 @@ impl<'a> Journey<'a> {
         let wall_s = started.elapsed().as_secs_f64();
         let (friction, symmetry) = (self.solver.solver.friction(), self.plan.symmetry);
         let repeats = (symmetry, case.periodic);
-        let record = record(&solved, (case.springs(), friction, repeats), (increment, stage, parts), wall_s);
+        let mut record =
+            record(&solved, (case.springs(), friction, repeats), (increment, stage, parts), wall_s);
+        (record.creepage, record.spin) = rates(&self.state, &solved.state);
         let kept =
             may_keep.then(|| kept(&solved, (friction, symmetry), increment, &case.output.fields)).transpose();
         let kept = kept.map_err(|error| RunError::OutOfMemory { increment, error })?;

@@ -15,6 +15,7 @@ mod recording;
 mod records;
 mod refinement;
 mod rings;
+mod rolling;
 mod run_error;
 mod simulation;
 mod slip_increment;

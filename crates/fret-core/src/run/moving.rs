@@ -6,6 +6,7 @@ use std::borrow::Cow;
 use ndarray::Array2;
 
 use super::pair_compliance::PairCompliance;
+use super::rolling::Rolling;
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance};
 use crate::fields::{Outside, carried};
 use crate::model::{
@@ -27,6 +28,8 @@ pub struct Stepper<'a> {
     pub solver: ContactSolver<'a>,
     /// The surfaces that move.
     pub moving: Option<Moving>,
+    /// The contact that rolls.
+    pub rolling: Option<Rolling>,
 }
 
 /// Surfaces that move against each other. Fields are those with symmetry reduction.
@@ -178,7 +181,7 @@ impl<'a> Stepper<'a> {
     /// Surfaces that stay where they are.
     #[cfg(test)]
     pub fn still(solver: ContactSolver<'a>) -> Self {
-        Self { solver, moving: None }
+        Self { solver, moving: None, rolling: None }
     }
 
     /// Whether friction is another one from increment to increment.
@@ -203,6 +206,9 @@ impl<'a> Stepper<'a> {
                 self.solver.forget_displacements();
             }
         }
+        if let Some(rolling) = &mut self.rolling {
+            rolling.forget_place();
+        }
     }
 
     /// Other bodies from the next increment on.
@@ -217,6 +223,11 @@ impl<'a> Stepper<'a> {
     ) -> Result<(), SolveError> {
         self.solver.set_response(compliance.response, compliance.table);
         self.moving.as_mut().map_or(Ok(()), |moving| moving.set_bodies(plan, bodies))
+    }
+
+    /// Whether an increment can be solved in parts that end at a load: a grid that goes with a contact moves by whole cells.
+    pub fn may_stop_at(&self, state: &ContactState, load: &LoadStep) -> bool {
+        self.rolling.as_ref().is_none_or(|rolling| rolling.may_stop_at(state, load))
     }
 
     /// What the solver remembers.
@@ -240,7 +251,10 @@ impl<'a> Stepper<'a> {
         load: &LoadStep,
         watch: IterationCallback<'_>,
     ) -> Result<Increment, SolveError> {
-        let Self { solver, moving } = self;
+        let Self { solver, moving, rolling } = self;
+        if let Some(rolling) = rolling {
+            return rolling.step(solver, state, load, watch);
+        }
         let Some(moving) = moving else { return solver.step(state, load, watch) };
         let from = moving.motion.cells(state.shift);
         let (to, is_known) = Moving::prescribed(load, state.shift);

@@ -25,7 +25,7 @@ pub fn of_plan(plan: &Plan) -> Vec<Warning> {
         look(Concern::ContactRadiusOverBodyRadius, over_body(plan, [x, y]));
         look(Concern::ApproachOverContactRadius, contact.approach / x.min(y));
         look(Concern::ApproachOverLayerThickness, contact.approach / layers_on_rigid_base(plan));
-        if !plan.case.kinematics.is_finite() {
+        if !plan.case.kinematics.is_finite() && !plan.case.rolls() {
             look(Concern::ShiftOverContactRadius, largest_shift(plan) / radius);
         }
     }
@@ -194,7 +194,11 @@ struct End {
 impl Gauge {
     /// Of a run that has yet to begin.
     pub fn of(plan: &Plan) -> Self {
-        Self { rings: Rings::of(plan), stays: !plan.case.kinematics.is_finite(), ..Self::default() }
+        Self {
+            rings: Rings::of(plan),
+            stays: !plan.case.kinematics.is_finite() && !plan.case.rolls(),
+            ..Self::default()
+        }
     }
 
     /// Reads an increment.

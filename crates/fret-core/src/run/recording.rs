@@ -5,7 +5,7 @@ use ndarray::Array2;
 use crate::fields::{copied, largest};
 use crate::history::{Footprint, KeptFields, Residual, StepRecord};
 use crate::machine::memory::MemoryError;
-use crate::model::{CellMap, CellValues, CoulombFriction, Rig, Symmetry, Zone};
+use crate::model::{CellMap, CellValues, ContactState, CoulombFriction, Rig, Symmetry, Zone};
 use crate::solver::Increment;
 
 /// The record of a solved increment of surfaces that may repeat; what it has worn is not yet known.
@@ -55,11 +55,24 @@ pub fn record(
         worn_volume: 0.0,
         max_worn_depth: 0.0,
         friction_coefficient: mean_coefficient(friction, &state.pressure),
+        roll: state.roll,
+        creepage: None,
+        spin: None,
         regime: outcome.regime,
         residual: Residual { ..outcome.residual },
         work: solved.work,
         wall_s,
     }
+}
+
+/// What the upper body has moved between two states by the distance rolled: creepage along x and y [-], and spin [rad/length].
+pub fn rates(before: &ContactState, after: &ContactState) -> (Option<[f64; 2]>, Option<f64>) {
+    let rolled = (after.roll[0] - before.roll[0]).hypot(after.roll[1] - before.roll[1]);
+    if rolled == 0.0 {
+        return (None, None);
+    }
+    let creepage = [0, 1].map(|axis| (after.shift[axis] - before.shift[axis]) / rolled);
+    (Some(creepage), Some((after.twist - before.twist) / rolled))
 }
 
 /// Its fields by the names asked for, made whole; the worn depth is not yet known.

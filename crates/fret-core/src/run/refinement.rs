@@ -60,8 +60,11 @@ fn halved(
             surfaces.add(span.state, &end.state)?;
             Ok((end, 1))
         }
-        Err(SolveError::NotConverged { .. }) if halvings > 0 && span.from != span.to => {
+        Err(error @ SolveError::NotConverged { .. }) if halvings > 0 && span.from != span.to => {
             let middle = &LoadStep::between(span.from, span.to, 0.5);
+            if !solver.may_stop_at(span.state, middle) {
+                return Err(error);
+            }
             let first = Span { to: middle, ..span };
             let (first, parts) = halved(solver, surfaces, first, halvings - 1, watch)?;
             let second = Span { state: &first.state, from: middle, to: span.to };

@@ -12,6 +12,7 @@ use super::observer::Observer;
 use super::pair_compliance::PairCompliance;
 use super::plausibility::Gauge;
 use super::records::Records;
+use super::rolling::Rolling;
 use super::run_error::{RunError, run_error, too_thin};
 use super::stiffest_wave::StiffestWave;
 use super::surfaces::Surfaces;
@@ -154,7 +155,8 @@ impl<'a> Simulation<'a> {
                 return (Records::default().history(plan, (&place, state), (worn, slipped)), Err(error));
             }
         };
-        let solver = Stepper { solver, moving };
+        let rolling = case.rolls().then(|| Rolling::of(plan));
+        let solver = Stepper { solver, moving, rolling };
         let (records, gauge) = (Records::default(), Gauge::of(plan));
         let journey = Journey { plan, solver, surfaces, state, records, gauge, place, cycle, observer };
         journey.through_all_stages()
@@ -174,7 +176,9 @@ impl<'a> Simulation<'a> {
                 scheme: case.scheme,
                 integration: case.integration,
                 single_precision: plan.single_precision,
-                reuse_pressure: plan.leave_out.takes(Simplification::Pressure) && !plan.moves,
+                reuse_pressure: plan.leave_out.takes(Simplification::Pressure)
+                    && !plan.moves
+                    && !case.rolls(),
                 skip_unloaded_shear: plan.leave_out.takes(Simplification::Tangential),
                 ..SolverSettings::new(case.tolerance)
             },

@@ -27,9 +27,10 @@ impl<'a> StageSteps<'a> {
                 (None, _)
                 | (Some(StageControl::Force(_)), Control::Force(_))
                 | (Some(StageControl::Motion(_)), Control::Motion(_))
-                | (Some(StageControl::FarEnd(_)), Control::FarEnd(_)) => held,
+                | (Some(StageControl::FarEnd(_)), Control::FarEnd(_))
+                | (Some(StageControl::Rate(_)), Control::Motion(_)) => held,
                 (Some(StageControl::Force(_)), _) => Control::Force(force),
-                (Some(StageControl::Motion(_)), _) => Control::Motion(motion),
+                (Some(StageControl::Motion(_) | StageControl::Rate(_)), _) => Control::Motion(motion),
                 (Some(StageControl::FarEnd(_)), _) => Control::FarEnd(motion + spring * force),
             };
         let start = LoadStep {
@@ -45,6 +46,7 @@ impl<'a> StageSteps<'a> {
                 begin(control, held.tilt[axis], resultants.tilt_moment[axis], state.tilt[axis], 0.0)
             }),
             bulk_stress: held.bulk_stress,
+            roll: held.roll,
         };
         Self::from_start(stage, start)
     }

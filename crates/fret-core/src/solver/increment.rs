@@ -186,6 +186,13 @@ impl ContactSolver<'_> {
         region: Region,
     ) -> Tractions {
         let coupled = self.coupling == Coupling::Coupled;
+        if self.rolled != [0.0; 2] && start.is_none() {
+            let tractions = GridTractions::of(state).carried(self.rolled);
+            return Tractions {
+                pressure: region.gather(&tractions.pressure),
+                shear: region.gather_tangential(&tractions.shear),
+            };
+        }
         let grown = start.filter(|_| coupled).and_then(|pressure| self.grown_to(pressure, state));
         let GridTractions { pressure, shear } = grown.unwrap_or_else(|| self.extrapolated(state, load));
         Tractions { pressure: region.gather(&pressure), shear: region.gather_tangential(&shear) }

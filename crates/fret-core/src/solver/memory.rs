@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::region::Region;
 use super::tractions::Displacements;
-use crate::fields::{TangentialField, copied, stored};
+use crate::fields::{Outside, TangentialField, carried, copied, stored};
 use crate::model::{ContactState, LoadStep};
 
 /// All that later increments depend on besides the last state.
@@ -74,6 +74,15 @@ impl Drift {
         }
     }
 
+    /// Carries it over a grid by whole cells along each axis.
+    fn carry(&mut self, cells: [isize; 2], grid: [usize; 2]) {
+        if let Some(from) = self.region {
+            for field in [&mut self.field.x, &mut self.field.y] {
+                self.region = Some(from.carry(field, cells, grid));
+            }
+        }
+    }
+
     fn fits(&self, cells: [usize; 2]) -> bool {
         let len = self.region.map_or(0, |region| region.len());
         self.region.is_none_or(|region| region.lies_within(cells))
@@ -96,6 +105,12 @@ impl GridTractions {
         Self { pressure: copied(&state.pressure), shear: [0, 1].map(|axis| copied(&state.shear[axis])) }
     }
 
+    /// Those of a contact that has travelled so many cells along each axis.
+    pub fn carried(self, cells: [f64; 2]) -> Self {
+        let moved = |field: &Array2<f64>| carried(field, cells, Outside::Zero);
+        Self { pressure: moved(&self.pressure), shear: self.shear.each_ref().map(moved) }
+    }
+
     fn fits(&self, cells: [usize; 2]) -> bool {
         [&self.pressure, &self.shear[0], &self.shear[1]].iter().all(|field| field.dim() == cells.into())
     }
@@ -114,6 +129,37 @@ pub(super) struct LastIncrement {
 }
 
 impl SolverMemory {
+    /// The same of a contact whose bodies have been carried over a grid by whole cells along each axis. What comes onto the grid is as it is at its
+    /// edge; tractions are none there.
+    pub(super) fn carried(mut self, cells: [isize; 2]) -> Self {
+        let by = cells.map(|cells| cells as f64);
+        let whole = |field: &Array2<f64>| carried(field, by, Outside::Edge);
+        if let Some(last) = &mut self.last {
+            let from = last.region;
+            last.gap = whole(&last.gap);
+            let grid = last.gap.dim().into();
+            last.drift.carry(cells, grid);
+            let Displacements { normal, tangential } = &mut last.displacements;
+            for field in [normal, &mut tangential.x, &mut tangential.y] {
+                last.region = from.carry(field, cells, grid);
+            }
+            if last.region.len() == 0 {
+                return Self { region: self.region, last_load: self.last_load, ..Self::default() };
+            }
+        }
+        if let Some(before) = &mut self.before {
+            let grid = before.tractions.pressure.dim().into();
+            before.tractions = before.tractions.clone().carried(by);
+            if let Some(gap) = &mut before.gap {
+                *gap = whole(gap);
+            }
+            if let Some(drift) = &mut before.drift {
+                drift.carry(cells, grid);
+            }
+        }
+        self
+    }
+
     /// That of a solver whose first state is known, with the load that led to it, and nothing else.
     pub(crate) fn starting_at(load: LoadStep) -> Self {
         Self { last_load: Some(load), ..Self::default() }

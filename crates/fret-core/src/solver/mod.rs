@@ -107,6 +107,8 @@ pub struct ContactSolver<'a> {
     travel: usize,
     /// By how much moving surfaces change the gap before deformation in the next increment [length].
     moved: Option<Array2<f64>>,
+    /// Cells that the contact travels over both surfaces by in the next increment.
+    rolled: [f64; 2],
 }
 
 impl<'a> ContactSolver<'a> {
@@ -146,6 +148,7 @@ impl<'a> ContactSolver<'a> {
             carried: None,
             travel: 0,
             moved: None,
+            rolled: [0.0; 2],
         }
     }
 
@@ -251,6 +254,17 @@ impl<'a> ContactSolver<'a> {
         let tilt = std::mem::take(&mut self.tilt);
         self.level = None;
         self.set_tilt(tilt);
+    }
+
+    /// The bodies have been carried over the grid by whole cells along each axis, with all that is known of their last states.
+    pub fn carry_memory(&mut self, cells: [isize; 2]) {
+        self.memory = std::mem::take(&mut self.memory).carried(cells);
+    }
+
+    /// In the next increments the contact travels over both surfaces by so many cells along each axis: tractions are looked for first where it
+    /// will be.
+    pub fn set_rolled(&mut self, cells: [f64; 2]) {
+        self.rolled = cells;
     }
 
     /// What surfaces that move by `cells` along each axis in the next increments add to the tangential displacement before [length], shape of the

@@ -74,6 +74,26 @@ impl Region {
         Self { origin, shape: [0, 1].map(|axis| end[axis] - origin[axis]) }
     }
 
+    /// Carries its field over a grid by whole cells along each axis: the region where it lies now, without what has left the grid.
+    pub fn carry(&self, field: &mut Vec<f64>, cells: [isize; 2], grid: [usize; 2]) -> Self {
+        let mut to = Self { origin: [0; 2], shape: [0; 2] };
+        let mut first = [0; 2];
+        for axis in 0..2 {
+            let start = self.origin[axis] as isize + cells[axis];
+            let end = (start + self.shape[axis] as isize).clamp(0, grid[axis] as isize);
+            let inside = start.clamp(0, end);
+            first[axis] = (inside - start) as usize;
+            to.origin[axis] = inside as usize;
+            to.shape[axis] = (end - inside) as usize;
+        }
+        let kept = (0..to.len()).map(|cell| {
+            let [i, j] = [cell / to.shape[1].max(1), cell % to.shape[1].max(1)];
+            field[(first[0] + i) * self.shape[1] + first[1] + j]
+        });
+        *field = kept.collect();
+        to
+    }
+
     /// The part of a tangential grid field.
     pub fn gather_tangential(&self, field: &[Array2<f64>; 2]) -> TangentialField {
         TangentialField { x: self.gather(&field[0]), y: self.gather(&field[1]) }

@@ -141,6 +141,7 @@ fn tractions_and_motions(problem: &IncrementProblem<'_>, solved: &Solved) -> Con
         load.tilt[axis].motion().unwrap_or_else(found)
     });
     state.bulk_stress = load.bulk_stress;
+    state.roll = load.roll;
     state.dissipated_energy = before.dissipated_energy;
     state.bulk_work = before.bulk_work;
     state.external_work = before.external_work;

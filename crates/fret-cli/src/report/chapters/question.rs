@@ -219,6 +219,8 @@ fn stage(view: &Overview<'_>, stage: &Stage<MapSummary>) -> Markup {
                     StageControl::Force(_) => (force.to_owned(), of_force),
                     StageControl::Motion(_) => (motion.to_owned(), of_motion),
                     StageControl::FarEnd(_) => (format!("actuator, {motion}"), of_motion),
+                    StageControl::Rate(_) if of_motion == "rad" => ("spin".to_owned(), "rad/length"),
+                    StageControl::Rate(_) => (motion.replace("displacement", "creepage"), "-"),
                 };
                 Some(format!("{name} {}", path(view, control.path(), unit)?))
             }));
@@ -227,6 +229,8 @@ fn stage(view: &Overview<'_>, stage: &Stage<MapSummary>) -> Markup {
     for (axis, name) in ["x", "y"].into_iter().enumerate() {
         let names = [format!("tangential force {name}"), format!("displacement {name}")];
         add(&stage.tangential[axis], [&names[0], &names[1]], ["force", "length"]);
+        let rolled = format!("rolled along {name}");
+        add(&stage.roll[axis], [&rolled, &rolled], ["length", "length"]);
     }
     add(&stage.twist, ["torsional moment", "rotation"], ["force x length", "rad"]);
     for (axis, name) in ["x", "y"].into_iter().enumerate() {

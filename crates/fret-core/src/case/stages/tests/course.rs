@@ -240,6 +240,7 @@ fn a_stage_prescribes_its_controls_and_leaves_the_others() {
         twist: Force(0.0),
         tilt: [Force(1.0), Motion(2.0)],
         bulk_stress: [[2.0, 3.0], [4.0, 5.0]],
+        roll: [0.0; 2],
     };
     let half = LoadStep {
         normal: Motion(7.0),
@@ -247,6 +248,7 @@ fn a_stage_prescribes_its_controls_and_leaves_the_others() {
         twist: Force(1.0),
         tilt: [Force(1.0), Motion(4.0)],
         bulk_stress: [[6.0, 3.0], [4.0, 12.5]],
+        roll: [0.0; 2],
     };
     assert_eq!(stages[1].load(&before, 1), half);
     assert_eq!(stages[2].load(&before, 2).tangential, [FarEnd(2.0), FarEnd(4.0)]);

@@ -1,0 +1,178 @@
+//! The judgement of rolling: what a rolling contact cannot be combined with, and which stages can have creepage and spin.
+
+use std::ops::Range;
+
+use super::control_keys::Given;
+use super::file::CaseFile;
+use super::judge::Judge;
+use super::misfits::{Loading, Misfit};
+use super::stage_file::IncrementsFile;
+use crate::document::At;
+use crate::model::controls::{BULK_STRESS, FREEDOMS, Kind, ROLL, TILT};
+use crate::model::stage::{Course, StageControl};
+use crate::model::{Frame, Kinematics, Profile, Shape};
+
+/// Refuses what rolling cannot be combined with.
+pub(super) fn rolling(
+    judge: &mut Judge,
+    file: &CaseFile,
+    loading: Loading<'_>,
+    (kinematics, profile): (Kinematics, Option<&Profile>),
+) {
+    rates(judge, loading);
+    let (files, stages) = loading;
+    let rolls = files.iter().any(|stage| stage.controls.of("roll").is_some())
+        || stages.is_some_and(|stages| stages.iter().any(|stage| stage.rolls()));
+    if !rolls {
+        return;
+    }
+    let roll = Misfit { freedoms: ROLL..FREEDOMS, motions: false, in_table: "a roll" };
+    if kinematics.is_finite() {
+        let help = "displacement = \"small\": creepage is small against the distance rolled";
+        roll.refuse(
+            judge,
+            loading,
+            "with kinematics.displacement = \"finite\": surfaces that roll keep pace with each other",
+            help,
+        );
+    }
+    if file.grid.periodic.as_ref().is_some_and(|periodic| periodic.value) {
+        roll.refuse(
+            judge,
+            loading,
+            "in a periodic case: the contact would roll into its own image",
+            "grid.periodic = false",
+        );
+    }
+    let can_roll = |shape: &Shape| shape.curvatures().is_some() || matches!(shape, Shape::Wave { .. });
+    if profile.is_some_and(|profile| !profile.shapes.iter().all(can_roll)) {
+        let help = "sphere, ellipsoid, or a cylinder without a length";
+        roll.refuse(judge, loading, "of a profile that does not roll: it has an edge, a flat or a tip", help);
+    }
+    beside(judge, loading, kinematics);
+    if kinematics.frame == Frame::Contact {
+        in_the_frame_of_the_contact(judge, file, loading, profile);
+    }
+}
+
+/// Refuses controls that have no place beside a roll.
+fn beside(judge: &mut Judge, loading: Loading<'_>, kinematics: Kinematics) {
+    let (files, _) = loading;
+    for given in files.iter().flat_map(|file| &file.value.controls.0) {
+        if given.way.name == "twist_moment" && given.values != [Some(0.0)] {
+            let help = "spin, or no twist_moment: the upper body then does not turn";
+            judge.refuse::<()>(
+                given.span(),
+                "twist_moment of a contact that rolls: its spin is prescribed",
+                help,
+            );
+        }
+    }
+    if kinematics.frame == Frame::Bodies {
+        let tilt = Misfit { freedoms: TILT..BULK_STRESS, motions: false, in_table: "a tilt" };
+        let why = "of a contact that rolls, with kinematics.frame = \"bodies\": a tilt is about the middle of the grid, and the contact leaves it";
+        tilt.refuse(judge, loading, why, "[kinematics] frame = \"contact\"");
+    }
+}
+
+/// Refuses what is fixed to bodies that travel through the grid.
+fn in_the_frame_of_the_contact(
+    judge: &mut Judge,
+    file: &CaseFile,
+    (files, _): Loading<'_>,
+    profile: Option<&Profile>,
+) {
+    for stage in files.iter().filter(|stage| stage.value.controls.of("roll").is_some()) {
+        if matches!(stage.value.increments, IncrementsFile::Auto(_)) {
+            judge.refuse::<()>(
+                stage.value.controls.of("roll").map_or_else(|| stage.span(), Given::span),
+                "roll with increments = \"auto\" and kinematics.frame = \"contact\": its increments are whole cells",
+                "a number of increments; one cell in each is enough",
+            );
+        }
+    }
+    let help = "frame = \"bodies\", on a grid that holds all of the way";
+    let mut refuse = |span: Option<Range<usize>>, what: &str| {
+        if let Some(span) = span {
+            let why = "with kinematics.frame = \"contact\": it would travel through the grid, and out of it";
+            judge.refuse::<()>(span, format!("{what} {why}"), help);
+        }
+    };
+    refuse(file.wear.as_ref().map(At::span), "wear");
+    let evolution = file.friction.as_ref().and_then(|friction| friction.evolution.as_ref());
+    refuse(evolution.map(At::span), "friction.evolution");
+    let map = file.friction.as_ref().and_then(|friction| friction.map.as_ref());
+    refuse(map.map(At::span), "friction.map");
+    let frame = file.kinematics.as_ref().and_then(|given| given.value.frame.as_ref());
+    if profile.is_some_and(|profile| !profile.heights.is_empty()) {
+        refuse(frame.map(At::span), "topography");
+    }
+    for stage in files.iter().filter(|stage| stage.value.controls.of("roll").is_some()) {
+        let stress =
+            stage.value.controls.0.iter().find(|given| (BULK_STRESS..ROLL).contains(&given.row.freedom));
+        refuse(stress.map(Given::span), "a bulk stress that changes while the contact rolls");
+        let cyclic = stage.value.cycles.is_some() || stage.value.until_steady.is_some();
+        if cyclic {
+            refuse(stage.value.controls.of("roll").map(Given::span), "cycles of roll");
+        }
+    }
+}
+
+/// Refuses creepage and spin where nothing, or not one way, is rolled.
+fn rates(judge: &mut Judge, (files, stages): Loading<'_>) {
+    for (index, file) in files.iter().enumerate() {
+        let stage = stages.and_then(|stages| stages.get(index));
+        let in_table = stage.is_some_and(|stage| {
+            stage.controls().any(|control| matches!(control, StageControl::Rate(_))) && file.table.is_some()
+        });
+        if let (true, Some(table)) = (in_table, &file.table) {
+            judge.refuse::<()>(
+                table.span(),
+                "a table with a column of creepage or spin: they are the same all along a stage",
+                "a stage for each value; or shift_x, the creepage summed over the distance rolled",
+            );
+        }
+        for given in file.controls.0.iter().filter(|given| given.way.kind == Kind::Rate) {
+            let name = given.way.name;
+            if file.controls.of("roll").is_none() {
+                judge.refuse::<()>(
+                    given.span(),
+                    format!("{name} without roll in its stage: it is a motion by distance rolled"),
+                    "roll = [x, y], the distance rolled at the end of the stage",
+                );
+            } else if stage.is_some_and(|stage| matches!(stage.course, Course::Cycles(_))) {
+                judge.refuse::<()>(
+                    given.span(),
+                    format!("{name} in cycles: it is the same all along a stage"),
+                    "prescribe a force, or a shift, which may have cycles",
+                );
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::check::tests::{ROLLER, read, refused};
+
+    fn with(stage: &str) -> String {
+        format!("increments = 1\n[[load]]\n{stage}\nincrements = 4\n")
+    }
+
+    #[test]
+    fn what_cannot_roll_is_refused() {
+        let rolled = with("roll = 1.0\ncreepage = [1e-4, 0.0]");
+        let case = read(ROLLER, &[("increments = 1\n", &rolled)]);
+        assert!(case.stages[1].rolls());
+        let alone = with("creepage = [1e-4, 0.0]");
+        refused(ROLLER, &[("increments = 1\n", &alone)], "a motion by distance rolled", "[1e-4, 0.0]");
+        let to_and_fro = with("roll = 1.0\ncreepage = [1e-4, 0.0]\ncycles = 2");
+        refused(ROLLER, &[("increments = 1\n", &to_and_fro)], "the same all along a stage", "[1e-4, 0.0]");
+        let finite = ("[friction]", "[kinematics]\ndisplacement = \"finite\"\n[friction]");
+        let one = with("roll = 1.0");
+        refused(ROLLER, &[finite, ("increments = 1\n", &one)], "keep pace with each other", "1.0");
+        let contact = ("[friction]", "[kinematics]\nframe = \"contact\"\n[friction]");
+        let worn = with("roll = 1.0") + "[wear]\ncoefficient = 1e-3\n";
+        refused(ROLLER, &[contact, ("increments = 1\n", &worn)], "travel through the grid", "[wear]");
+    }
+}

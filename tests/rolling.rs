@@ -1,0 +1,354 @@
+//! Contacts that roll: Carter's creepage, the numbers of CONTACT's example, and one problem in the frames of the bodies and of the contact.
+
+use std::f64::consts::PI;
+
+use fret_core::history::{History, StepRecord};
+use fret_validation::{off_first_law, run, solved};
+
+/// Two cylinders of one material with E* = 1 and the relative radius 100, pressed to a half-width of 1; friction 0.3.
+fn cylinders(grid: &str, kinematics: &str, loads: &str) -> String {
+    let force = PI / 400.0;
+    format!(
+        "[grid]\n{grid}\n[upper]\nsubstrate = {{ young = 1.82, poisson = 0.3 }}\n[lower]\nsubstrate = {{ young = 1.82, poisson = 0.3 }}\n\
+         [profile.cylinder]\nradius = 100.0\naxis = \"y\"\n[friction]\ncoefficient = 0.3\n[kinematics]\n{kinematics}\n[solver]\ntolerance = 1e-9\n\
+         [[load]]\nnormal_force = {force:e}\nincrements = 1\n{loads}"
+    )
+}
+
+/// Carter (1926): under a tractive force Q the creepage is `mu a/R (1 - sqrt(1 - Q/(mu P)))`, and the stick zone of half-length
+/// `a sqrt(1 - Q/(mu P))` lies at the leading edge.
+#[test]
+fn the_creepage_of_cylinders_is_carters() {
+    for (fraction, expected) in [(0.25, 0.133_975), (0.5, 0.292_893), (0.75, 0.5), (0.9, 0.683_772)] {
+        let force = fraction * 0.3 * PI / 400.0;
+        let loads = format!(
+            "[[load]]\ntangential_force = [{force:e}, 0.0]\nincrements = 4\n[[load]]\nroll = 14.0\nincrements = 1120\n"
+        );
+        let history = solved(&cylinders("cells = 256\nsize = 3.2", "frame = \"contact\"", &loads));
+        let last = history.steps.last().unwrap();
+        let [creepage, across] = last.creepage.unwrap();
+        let found = creepage * 100.0 / 0.3;
+        let zones = history.fields.last().unwrap().zone.as_ref().unwrap();
+        let stick: Vec<usize> =
+            (0..256).filter(|i| zones[[*i, 0]] == fret_core::model::Zone::Stick).collect();
+        let half = 0.5 * stick.len() as f64 * 3.2 / 256.0;
+        println!(
+            "Carter, Q = {fraction} mu P: creepage {found:.6} ({:+.2} %), stick {half:.4} of {:.4}, up to x = {:.3}",
+            100.0 * (found / expected - 1.0),
+            (1.0_f64 - fraction).sqrt(),
+            history.grid.centre(0, *stick.last().unwrap())
+        );
+        assert!((found / expected - 1.0).abs() < 0.005 && across == 0.0, "{found}");
+        // to a cell at either end, and at the leading edge to one
+        assert!((half - (1.0_f64 - fraction).sqrt()).abs() < 0.0125);
+        assert!((history.grid.centre(0, *stick.last().unwrap()) - 1.0).abs() < 0.02);
+    }
+}
+
+/// The example carter2d of CONTACT (Vollebregt), 50 elements over the contact, of which the foremost has its centre 0.01 behind the leading edge:
+/// G = 82 000, nu = 0.28, P = 178.9 a unit of length, R = 500, mu = 0.3, creepage 2.4e-4 gives Q = 0.6480 mu P by its rule, which is that of end
+/// points, an element an increment. Exact: 0.64. A tilt moves the contact to where that element is.
+#[test]
+fn creepage_prescribed_gives_the_force_of_contacts_example() {
+    let text = |integration: &str| {
+        format!(
+            "[grid]\ncells = 60\nsize = 2.4\n[upper]\nsubstrate = {{ young = 209920.0, poisson = 0.28 }}\n[lower]\n\
+             substrate = {{ young = 209920.0, poisson = 0.28 }}\n[profile.cylinder]\nradius = 500.0\naxis = \"y\"\n[friction]\ncoefficient = 0.3\n\
+             [kinematics]\nframe = \"contact\"\n[solver]\nintegration = \"{integration}\"\n\
+             [[load]]\nnormal_force = 178.9\ntilt = -2e-5\nincrements = 1\n[[load]]\nroll = 24.0\ncreepage = [2.4e-4, 0.0]\nincrements = 600\n"
+        )
+    };
+    let force = |text: &str| {
+        let history = run(text).unwrap();
+        let last = history.steps.last().unwrap();
+        assert!((last.creepage.unwrap()[0] / 2.4e-4 - 1.0).abs() < 1e-9);
+        last.tangential_force[0] / (0.3 * 178.9)
+    };
+    let [ends, second] = [force(&text("end_point")), force(&text("second_order"))];
+    println!(
+        "carter2d: Q/(mu P) = {ends:.4} by end points (CONTACT 0.6480), {second:.4} of second order (exact 0.64)"
+    );
+    // CONTACT prints four digits
+    assert!((ends - 0.6480).abs() < 1e-4, "{ends}");
+    assert!((second - 0.64).abs() < 0.05 * (0.648 - 0.64), "{second}");
+}
+
+fn ball(frame: &str, integration: &str, motion: &str) -> History {
+    // cells of 0.1 in both; the grid of the bodies holds the way
+    let cells = if frame == "bodies" { 64 } else { 28 };
+    let text = format!(
+        "[grid]\ncells = [{cells}, 28]\nsize = [{:?}, 2.8]\n[upper]\nrigid = true\n[lower]\nsubstrate = {{ young = 1.0, poisson = 0.2 }}\n\
+         [profile.sphere]\nradius = 100.0\n[friction]\ncoefficient = 0.3\n[kinematics]\nframe = \"{frame}\"\n\
+         [solver]\ntolerance = 1e-10\nintegration = \"{integration}\"\n[output]\nfields = [\"pressure\", \"shear\", \"slip\"]\nevery = 1\n\
+         [[load]]\nnormal_force = 1.2e-2\nincrements = 3\n[[load]]\ntangential_force = [1e-3, 0.0]\nincrements = 2\n\
+         [[load]]\nroll = [1.6, 0.0]\n{motion}\nincrements = 16\n",
+        0.1 * f64::from(cells),
+    );
+    let history = solved(&text);
+    assert!(off_first_law(&history, 0.0) < 1e-9, "{:e}", off_first_law(&history, 0.0));
+    history
+}
+
+/// A rigid ball on an elastic flat, pulled and rolled, along and across, and with spin: the grid fixed to the bodies, or with the contact, is one
+/// problem. Tolerance: residuals of 1e-10 of each; they are solved in other regions.
+#[test]
+fn the_frame_of_the_bodies_and_that_of_the_contact_agree() {
+    for motion in ["", "spin = 2e-3\ncreepage = [\"held\", 1e-3]", "creepage = [2e-3, 1e-3]"] {
+        for integration in ["end_point", "second_order"] {
+            let [bodies, contact] = ["bodies", "contact"].map(|frame| ball(frame, integration, motion));
+            let mut largest = 0.0_f64;
+            for (step, rolled) in (5..21).zip(1..=16_usize) {
+                let [one, other] = [&bodies, &contact].map(|history| history.fields_of(step).unwrap());
+                let (p, r) = (one.pressure.as_ref().unwrap(), other.pressure.as_ref().unwrap());
+                let most = r.iter().copied().fold(0.0, f64::max);
+                for ((i, j), pressure) in r.indexed_iter() {
+                    let at = [i + 18 + rolled, j];
+                    let mut differs = (p[at] - pressure).abs();
+                    for axis in 0..2 {
+                        let [q, s] = [one, other].map(|fields| &fields.shear.as_ref().unwrap()[axis]);
+                        differs = differs.max((q[at] - s[[i, j]]).abs());
+                    }
+                    largest = largest.max(differs / most);
+                }
+            }
+            let [one, other] = [&bodies, &contact].map(|history| history.steps.last().unwrap().clone());
+            let numbers = |step: &StepRecord| {
+                let [[x, y], [qx, qy]] = [step.creepage.unwrap(), step.tangential_force];
+                [
+                    x,
+                    y,
+                    step.spin.unwrap(),
+                    qx,
+                    qy,
+                    step.twist_moment,
+                    step.tilt_moment[0],
+                    step.dissipated_energy,
+                    step.external_work,
+                ]
+            };
+            println!(
+                "frames, {integration}, {motion}: tractions differ by {largest:.1e}, {:.6e} {:.6e}",
+                numbers(&one)[0],
+                numbers(&other)[0]
+            );
+            assert!(largest < 1e-7, "{largest:e}");
+            for (place, (a, b)) in numbers(&one).into_iter().zip(numbers(&other)).enumerate() {
+                assert!((a - b).abs() <= 1e-6 * a.abs().max(1e-6), "{place}: {a:e} {b:e}");
+            }
+        }
+    }
+}
+
+/// Two bodies of one material, pressed by a Hertz pressure to a circle of radius 1, roll under small creepages and a small spin: everything but
+/// the trailing edge sticks. Kalker's coefficients for a circle and nu = 0.25: `F_x = -G a^2 C11 xi`, `F_y = -G a^2 (C22 eta + a C23 phi)` with
+/// C11 = 4.12, C22 = 3.67, C23 = 1.47 (Kalker, Three-Dimensional Elastic Bodies in Rolling Contact, 1990, table E3, `g = 1`).
+fn spheres(cells: usize, motion: &str, increments: usize) -> StepRecord {
+    // G = 1: E = 2.5; E* of the pair = 4/3; R = 100
+    let force = 4.0 / 3.0 * (4.0 / 3.0) / 100.0;
+    let size = 2.4;
+    let rolled = size / cells as f64 * increments as f64;
+    let text = format!(
+        "[grid]\ncells = [{cells}, {cells}]\nsize = [{size}, {size}]\n[upper]\nsubstrate = {{ young = 2.5, poisson = 0.25 }}\n[lower]\n\
+         substrate = {{ young = 2.5, poisson = 0.25 }}\n[profile.sphere]\nradius = 100.0\n[friction]\ncoefficient = 0.5\n[kinematics]\n\
+         frame = \"contact\"\n[solver]\ntolerance = 1e-8\n[[load]]\nnormal_force = {force:e}\nincrements = 1\n\
+         [[load]]\nroll = [{rolled:?}, 0.0]\n{motion}\nincrements = {increments}\n"
+    );
+    let history = run(&text).unwrap_or_else(|error| panic!("{error}"));
+    history.steps.last().unwrap().clone()
+}
+
+#[test]
+fn small_creepages_and_spin_give_kalkers_coefficients() {
+    let small = 1e-6;
+    let (cells, increments) = (48, 288);
+    let along = spheres(cells, &format!("creepage = [{small:e}, 0.0]"), increments);
+    let across = spheres(cells, &format!("creepage = [0.0, {small:e}]"), increments);
+    let spin = spheres(cells, &format!("creepage = [0.0, 0.0]\nspin = {small:e}"), increments);
+    let found = [along.tangential_force[0], across.tangential_force[1], spin.tangential_force[1]]
+        .map(|force| force / small);
+    println!("Kalker's coefficients: {found:?}, of 4.12, 3.67, 1.47");
+    for (found, table) in found.into_iter().zip([4.12, 3.67, 1.47]) {
+        // three digits, and 40 cells over the contact
+        assert!((found / table - 1.0).abs() < 0.005, "{found} {table}");
+    }
+    // a spin turns a sphere to the left where it rolls to: the force is to the left
+    assert!(spin.tangential_force[0].abs() < 1e-6 * spin.tangential_force[1]);
+}
+
+/// In the steady state friction takes what creepage and spin put in: `Q . creepage + M spin`, by distance rolled.
+#[test]
+fn the_work_of_creepage_is_what_friction_dissipates() {
+    let cells = 32;
+    let of = |increments: usize| spheres(cells, "creepage = [2e-3, 1e-3]\nspin = 1e-3", increments);
+    let [before, last] = [192, 193].map(of);
+    let rolled = 2.4 / cells as f64;
+    let [creepage, force] = [last.creepage.unwrap(), last.tangential_force];
+    let put_in = force[0] * creepage[0] + force[1] * creepage[1] + last.twist_moment * last.spin.unwrap();
+    let dissipated = (last.dissipated_energy - before.dissipated_energy) / rolled;
+    let worked = (last.external_work - before.external_work) / rolled;
+    println!("power: put in {put_in:.6e}, work {worked:.6e}, dissipated {dissipated:.6e}");
+    assert!((worked / put_in - 1.0).abs() < 1e-6, "{worked} {put_in}");
+    // what 27 cells over the contact leave unresolved
+    assert!((dissipated / put_in - 1.0).abs() < 3e-3, "{dissipated} {put_in}");
+}
+
+/// CONTACT's example tractcurv: spheroids of a/b = 1/2, nu = 0.28, mu = 0.33, 106.7 kN, 48 x 44 elements over 1.1 times the contact. Of its steady
+/// force 0.007015, 0.2588 and 0.4742 mu P; it prints four digits, and its increments are 1.73
+/// elements.
+#[test]
+fn the_tractive_curve_is_that_of_contact() {
+    // Hertz, e^2 = 3/4: the complete elliptic integrals K and E
+    let (k, e) = (2.156_515_647_5, 1.211_056_027_6);
+    let [of_x, of_y] = [(4.0 * e - k) / 3.0, (k - e) / 3.0];
+    let modulus = 82_000.0 / 0.72;
+    let along = (of_x * 3.0 * 106_700.0 / (4.0 * PI * modulus * 0.0008)).cbrt();
+    let across = 2.0 * along;
+    let [width, depth] = [2.2 * along, 2.2 * across];
+    let [radius_x, radius_y] = [625.0, 625.0 * of_x / of_y];
+    for (creepage, expected) in [(1e-5, 0.007_015), (4e-4, 0.2588), (8e-4, 0.4742)] {
+        let text = format!(
+            "[grid]\ncells = [48, 44]\nsize = [{width:?}, {depth:?}]\n[upper]\nsubstrate = {{ young = 209920.0, poisson = 0.28 }}\n[lower]\n\
+             substrate = {{ young = 209920.0, poisson = 0.28 }}\n[profile.ellipsoid]\nradius_x = {radius_x:?}\nradius_y = {radius_y:?}\n\
+             [friction]\ncoefficient = 0.33\n[kinematics]\nframe = \"contact\"\n[solver]\nintegration = \"end_point\"\n\
+             [[load]]\nnormal_force = 106700.0\nincrements = 1\n[[load]]\nroll = [{:?}, 0.0]\ncreepage = [{creepage:e}, 0.0]\nincrements = 240\n",
+            5.0 * width
+        );
+        let history = run(&text).unwrap_or_else(|error| panic!("{error}"));
+        let found = history.steps.last().unwrap().tangential_force[0] / (0.33 * 106_700.0);
+        println!("tractcurv: {creepage:e} gives {found:.6} mu P (CONTACT {expected})");
+        assert!((found / expected - 1.0).abs() < 2e-3, "{found}");
+    }
+}
+
+/// CONTACT's example bentall: an aluminium roller on a steel roller, R = 50 each, 16.2019 a unit of length, 216 elements of 0.001; free rolling.
+/// Creepage, largest pressure and elements in adhesion, of three with friction of 0.05: free, and pulled by 0.75 of it forward and back. There it
+/// rolls to -x, here to x.
+#[test]
+fn unlike_rollers_creep_as_contacts_do() {
+    for (friction, pull, expected, told) in [
+        (1e-4, 0.0, 5.260e-4, None),
+        (0.05, 0.0, 4.294e-4, Some((103.6, 125))),
+        (0.05, 0.75, 2.109e-4, Some((103.2, 36))),
+        (0.05, -0.75, 5.392e-4, Some((103.3, 106))),
+    ] {
+        let pull = pull * friction * 16.2019;
+        let text = format!(
+            "[grid]\ncells = 216\nsize = 0.216\n[upper]\nsubstrate = {{ young = 60260.0, poisson = 0.31 }}\n[lower]\n\
+             substrate = {{ young = 209920.0, poisson = 0.28 }}\n[profile.cylinder]\nradius = 25.0\naxis = \"y\"\n\
+             [friction]\ncoefficient = {friction:?}\n[kinematics]\nframe = \"contact\"\n[solver]\nintegration = \"end_point\"\n\
+             [[load]]\nnormal_force = 16.2019\nincrements = 1\n[[load]]\nroll = 0.1\ntangential_force = [{pull:e}, 0.0]\nincrements = 100\n[[load]]\n\
+             roll = 1.1\nincrements = 1000\n"
+        );
+        let history = run(&text).unwrap_or_else(|error| panic!("{error}"));
+        let last = history.steps.last().unwrap();
+        let found = -last.creepage.unwrap()[0];
+        println!(
+            "bentall, mu {friction}: creepage {found:.4e} (CONTACT {expected:e}), pressure {:.2}",
+            last.max_pressure
+        );
+        // four digits are printed
+        assert!((found - expected).abs() < 1e-7, "{found}");
+        if let Some((pressure, adhesion)) = told {
+            assert!((last.max_pressure - pressure).abs() < 0.06 && last.stick_cells == adhesion, "{last:?}");
+        }
+    }
+}
+
+/// Two like cylinders with like coatings under a creepage so small that all sticks: the linear theory, by a dense matrix of the response along the
+/// surface (O'Sullivan & King's of a bilayer, with the coating's half-space in closed form and the rest by quadrature); force by creepage for
+/// 40 cells over a half-width of 1, coatings half of that (`golden/rolling_coated.py`). Coating over substrate, E1/E2: 1/2, 2, 10 (E2 = 1.82, nu = 0.3).
+#[test]
+fn coated_cylinders_roll_as_the_linear_theory_says() {
+    for (young, most, expected) in
+        [(0.91, 0.007, 0.932_026_242_4), (3.64, 0.012, 2.632_588_095_3), (18.2, 0.03, 8.906_082_269_1)]
+    {
+        let body = format!(
+            "coatings = [{{ thickness = 0.5, young = {young}, poisson = 0.3 }}]\nsubstrate = {{ young = 1.82, poisson = 0.3 }}\n"
+        );
+        let text = |force: f64| {
+            format!(
+                "[grid]\ncells = 64\nsize = 3.2\n[upper]\n{body}[lower]\n{body}[profile.cylinder]\nradius = 100.0\naxis = \"y\"\n[friction]\n\
+             coefficient = 0.9\n[kinematics]\nframe = \"contact\"\n[solver]\ntolerance = 1e-11\nintegration = \"end_point\"\n\
+             [[load]]\nnormal_force = {force:e}\nincrements = 1\n"
+            )
+        };
+        // a force under which 40 cells touch
+        let cells = |force: f64| run(&text(force)).unwrap().steps[0].contact_cells;
+        let (mut low, mut high) = (1e-4, most);
+        let force = loop {
+            let force = 0.5 * (low + high);
+            match cells(force) {
+                40 => break force,
+                fewer if fewer < 40 => low = force,
+                _ => high = force,
+            }
+        };
+        let text = text(force) + "[[load]]\nroll = 120.0\ncreepage = [1e-5, 0.0]\nincrements = 2400\n";
+        let history = run(&text).unwrap_or_else(|error| panic!("{error}"));
+        let last = history.steps.last().unwrap();
+        let found = last.tangential_force[0] / 1e-5;
+
+        println!("coated, {young}: force by creepage {found:.9} of {expected:.9}");
+        assert_eq!([last.contact_cells, last.stick_cells], [40, 40]);
+        // what ten digits and residuals of 1e-11 leave after 60 lengths of the contact
+        assert!((found / expected - 1.0).abs() < 1e-8, "{found}");
+    }
+}
+
+/// A coating of the body's own material is none.
+#[test]
+fn a_coating_of_the_bodys_own_material_is_none() {
+    let text = |coating: &str| {
+        format!(
+            "[grid]\ncells = [32, 32]\nsize = [2.6, 2.6]\n[upper]\nrigid = true\n[lower]\n{coating}substrate = {{ young = 1.0, poisson = 0.3 }}\n\
+             [profile.sphere]\nradius = 100.0\n[friction]\ncoefficient = 0.3\n[kinematics]\nframe = \"contact\"\n[solver]\ntolerance = 1e-10\n\
+             [[load]]\nnormal_force = 0.0146\nincrements = 3\n[[load]]\nroll = [3.25, 0.0]\ncreepage = [1e-3, 5e-4]\nspin = 2e-4\nincrements = 40\n"
+        )
+    };
+    let [bare, coated] =
+        ["", "coatings = [{ thickness = 0.4, young = 1.0, poisson = 0.3 }]\n"].map(|coating| {
+            let history = solved(&text(coating));
+            history.steps.last().unwrap().clone()
+        });
+    let numbers = |step: &StepRecord| {
+        [step.tangential_force[0], step.tangential_force[1], step.twist_moment, step.dissipated_energy]
+    };
+    for (one, other) in numbers(&bare).into_iter().zip(numbers(&coated)) {
+        // kernels of coated bodies are right to some 1e-9
+        assert!((one / other - 1.0).abs() < 1e-7, "{one:e} {other:e}");
+    }
+}
+
+/// An oscillating bearing (false brinelling): a ball that is pulled rolls back and forth on a flat, and both wear. What wears is the coefficient
+/// times what friction dissipates; without pull, a pair of one material has nothing to wear.
+#[test]
+fn rolling_back_and_forth_wears_by_what_friction_dissipates() {
+    let case = |pull: f64| {
+        format!(
+            "[grid]\ncells = [64, 32]\nsize = [4.8, 2.4]\n[upper]\nsubstrate = {{ young = 1.82, poisson = 0.3 }}\n[lower]\n\
+             substrate = {{ young = 1.82, poisson = 0.3 }}\n[profile.sphere]\nradius = 100.0\n[friction]\ncoefficient = 0.3\n\
+             [solver]\ntolerance = 1e-10\n[wear]\ncoefficient = 0.5\n[output]\nfields = [\"worn_depth\", \"pressure\"]\n\
+             [[load]]\nnormal_force = 0.0133\nincrements = 2\n[[load]]\ntangential_force = [{pull:e}, 0.0]\nincrements = 2\n\
+             [[load]]\nroll = [0.6, 0.0]\nincrements = 32\ncycles = 4\n"
+        )
+    };
+    let history = solved(&case(2e-3));
+    assert!(off_first_law(&history, 0.0) < 1e-9);
+    let last = history.steps.last().unwrap();
+    let before = history.steps[3].dissipated_energy;
+    println!(
+        "oscillating: {:.4e} dissipated, of it {:.1e} before, {:.4e} worn",
+        last.dissipated_energy, before, last.worn_volume
+    );
+    assert!((last.worn_volume / (0.5 * last.dissipated_energy) - 1.0).abs() < 1e-9);
+    assert!(last.dissipated_energy > 3.0 * before);
+    // it wears beyond the contact at rest, as far as the way goes
+    let worn = history.fields.last().unwrap().worn_depth.as_ref().unwrap();
+    let [first, end] = [
+        worn.rows().into_iter().position(|row| row.sum() > 0.0).unwrap(),
+        64 - worn.rows().into_iter().rev().position(|row| row.sum() > 0.0).unwrap(),
+    ];
+    println!("worn from {first} to {end} of 64");
+    let free = solved(&case(0.0));
+    assert!(free.steps.last().unwrap().worn_volume == 0.0, "{:e}", free.steps.last().unwrap().worn_volume);
+}
