@@ -92,6 +92,8 @@ pub enum Verb {
     Stress(StressArguments),
     /// Friction coefficient, stiffness of the rig and the quantities of every cycle from measured fretting loops
     Identify(IdentifyArguments),
+    /// The computed wear scar of a run beside a line that a profilometer has measured
+    CompareScar(CompareScarArguments),
     /// Temperature rise by the friction of the last cycle, and contact resistance, from the kept fields of a run
     Heat(HeatArguments),
     /// Parameter sweep: solve a base case for lists of values of its keys, or for samples of uncertain ones
@@ -264,6 +266,30 @@ pub struct SweepArguments {
     /// Number of threads, one per point [default: all cores]
     #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,
+    /// Print only errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// Which scar, and which line.
+#[derive(Debug, Args)]
+pub struct CompareScarArguments {
+    /// The results folder of a run with wear, finished or not, that kept its wear depth
+    pub folder: PathBuf,
+    /// The measured line (CSV): position and height, row by row; any lines above the names of the columns
+    pub measured: PathBuf,
+    /// Which column holds what, by name or by number from 1: `position=NAME,height=NAME` [default: usual names]
+    #[arg(long, value_name = "WHAT=NAME,...", value_delimiter = ',')]
+    pub columns: Vec<String>,
+    /// Units of the columns, such as position=um,height=nm [default: those beside the names, or those of the case]
+    #[arg(long, value_name = "WHAT=UNIT,...", value_delimiter = ',')]
+    pub units: Vec<String>,
+    /// The body whose scar it is: upper or lower, of bodies that move against each other [default: lower, or both together]
+    #[arg(long, value_parser = ["upper", "lower"])]
+    pub body: Option<String>,
+    /// Along which axis the line runs, through the deepest place
+    #[arg(long, value_parser = ["x", "y"], default_value = "x")]
+    pub along: String,
     /// Print only errors
     #[arg(long, short)]
     pub quiet: bool,

@@ -78,6 +78,7 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         Verb::Export(arguments) => commands::export::export(arguments, as_json),
         Verb::Study(arguments) => commands::study::study(arguments, as_json),
         Verb::Stress(arguments) => commands::stress::stress(arguments, as_json),
+        Verb::CompareScar(arguments) => commands::compare_scar::compare_scar(arguments, as_json),
         Verb::Heat(arguments) => commands::heat::heat(arguments, as_json),
     }?;
     Ok(())

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use fret_core::identify;
 use fret_core::measured::Asked;
 
+use super::columns_asked::pairs;
 use crate::arguments::IdentifyArguments;
 use crate::failure::Failure;
 use crate::identify::{Answer, Request, identify as identified, name_of};
@@ -16,6 +17,8 @@ use fret_results::{folder_for_answers, stem, write_whole};
 
 /// The answer, which marks its folder.
 const IDENTIFIED: &str = "identified.json";
+/// How columns and units are chosen.
+const EXAMPLE: &str = "displacement=...,force=...";
 /// Bytes of a log, at the most.
 const MOST_BYTES: u64 = 1 << 30;
 
@@ -25,8 +28,8 @@ pub fn identify(arguments: &IdentifyArguments, as_json: bool) -> Result<(), Fail
     let bytes = content(&arguments.log)?;
     let log = identify::Request {
         asked: Asked {
-            columns: pairs("--columns", &arguments.columns)?,
-            units: pairs("--units", &arguments.units)?,
+            columns: pairs("--columns", &arguments.columns, EXAMPLE)?,
+            units: pairs("--units", &arguments.units, EXAMPLE)?,
         },
         cycle: arguments.cycle,
         strict: arguments.strict,
@@ -80,21 +83,4 @@ pub fn write(folder: &Path, answer: &Answer) -> Result<(), Failure> {
     write_whole(&folder.join("identified.html"), answer.page().as_bytes())?;
     write_whole(&folder.join("cycles.csv"), answer.table().as_bytes())?;
     Ok(())
-}
-
-/// `role=name,role=name`.
-fn pairs(option: &str, given: &[String]) -> Result<Vec<(String, String)>, Failure> {
-    given
-        .iter()
-        .map(|pair| {
-            pair.split_once('=')
-                .map(|(role, name)| (role.trim().to_owned(), name.trim().to_owned()))
-                .ok_or_else(|| {
-                    Failure::Call(
-                        format!("{option} {pair:?}: no equals sign"),
-                        format!("{option} \"displacement=...,force=...\""),
-                    )
-                })
-        })
-        .collect()
 }

@@ -1,6 +1,8 @@
 //! The verbs of `fret`, one file each, with what they need beside.
 
 pub mod check;
+mod columns_asked;
+pub mod compare_scar;
 mod crack;
 pub mod explain;
 pub mod export;

@@ -16,6 +16,7 @@ mod misleading;
 mod places;
 mod refused;
 mod shown;
+mod scars;
 mod solved;
 mod started;
 mod stressed;

@@ -1,0 +1,217 @@
+//! `fret compare-scar`: the computed wear depth of a run beside a line that a profilometer has measured.
+//!
+//! Written into `scar/` in the result folder: `scar.json` (numbers, and what was done to the line), `scar.csv` (both depths by cell),
+//! `scar.svg`.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use fret_core::case::Units;
+use fret_core::scar::{Asked, Comparison, Line, Pair, compare, read};
+use ndarray::Array2;
+use serde_json::{Value, json};
+
+use super::columns_asked::pairs;
+use super::identify::content;
+use crate::arguments::CompareScarArguments;
+use crate::drawing::chart::{Chart, Curve};
+use crate::drawing::scale::Label;
+use crate::failure::Failure;
+use crate::figures::{figure, figure_in};
+use crate::identify::name_of;
+use crate::terminal;
+use fret_results::Results;
+use fret_results::{folder_below, write_whole};
+
+/// Fields that hold a wear depth: of each body where they move against each other, or of both together.
+const OF_BOTH: &str = "worn_depth";
+
+/// Compares the last kept wear depth of a run with a measured line.
+pub fn compare_scar(arguments: &CompareScarArguments, as_json: bool) -> Result<(), Failure> {
+    let asked = Asked {
+        columns: pairs("--columns", &arguments.columns, "position=x,height=z")?,
+        units: pairs("--units", &arguments.units, "position=um,height=nm")?,
+    };
+    let run = Results::read(&arguments.folder)?;
+    let name = name_of(&arguments.measured);
+    let measured = read((&name, &content(&arguments.measured)?), &asked, run.units())
+        .map_err(|refused| Failure::Call(refused.what, refused.help))?;
+    let worn = Worn::of(&run, arguments.body.as_deref())?;
+    let axis = usize::from(arguments.along == "y");
+    if axis == 1 && run.grid().is_line() {
+        let what = "a line contact has the same wear depth all along y".to_owned();
+        return Err(Failure::Call(what, "--along x".to_owned()));
+    }
+    let found = compare(&worn.section(&run, axis), run.grid().spacing()[axis], measured)
+        .map_err(|refused| Failure::Call(refused.what, refused.help))?;
+    let place = folder_below(&arguments.folder, Path::new("scar"))?;
+    let answer = Answer { run: &run, worn: &worn, along: &arguments.along, found: &found };
+    let record = answer.record();
+    write_whole(&place.join("scar.json"), format!("{record:#}\n").as_bytes())?;
+    write_whole(&place.join("scar.csv"), answer.csv().as_bytes())?;
+    write_whole(&place.join("scar.svg"), answer.picture().as_bytes())?;
+    if as_json {
+        return terminal::answer_in_json(&record);
+    }
+    if !arguments.quiet {
+        terminal::answer(&format!("{}\nwritten to {}", answer.text(), place.display()))?;
+    }
+    Ok(())
+}
+
+/// The last kept wear depth of a run.
+struct Worn {
+    /// Whose it is, in words.
+    whose: &'static str,
+    increment: usize,
+    depth: Array2<f64>,
+}
+
+impl Worn {
+    fn of(run: &Results, body: Option<&str>) -> Result<Self, Failure> {
+        let (field, whose) = match body {
+            Some("upper") => ("upper_worn_depth", "the upper body"),
+            Some(_) => ("lower_worn_depth", "the lower body"),
+            None if run.fields.has("lower_worn_depth") => ("lower_worn_depth", "the lower body"),
+            None => (OF_BOTH, "both bodies together"),
+        };
+        let missing = |what: String| {
+            let way_out = "run the case again with output.fields = [\"worn_depth\", ...]".to_owned();
+            Failure::Call(format!("{}: {what}", run.path.display()), way_out)
+        };
+        let Some(&increment) = run.fields.reached.last() else {
+            return Err(missing("no fields were kept".to_owned()));
+        };
+        let depth = run.field(field, increment)?.ok_or_else(|| match body {
+            Some(body) if run.fields.has(OF_BOTH) => Failure::Call(
+                format!(
+                    "{}: the wear depths of the {body} body by itself were not kept: only bodies that move have one each",
+                    run.path.display()
+                ),
+                "without --body: the wear depth of both bodies together; or [kinematics] displacement = \"finite\"".to_owned(),
+            ),
+            _ => missing(format!("the field {field} was not kept")),
+        })?;
+        Ok(Self { whose, increment, depth })
+    }
+
+    /// Along an axis, through the deepest cell.
+    fn section(&self, run: &Results, axis: usize) -> Line {
+        let mut deepest = ([0, 0], 0.0);
+        for ((i, j), depth) in self.depth.indexed_iter() {
+            if *depth > deepest.1 {
+                deepest = ([i, j], *depth);
+            }
+        }
+        let [i, j] = deepest.0;
+        let z = if axis == 0 { self.depth.column(j).to_vec() } else { self.depth.row(i).to_vec() };
+        Line { x: run.grid().centres(axis).to_vec(), z }
+    }
+}
+
+/// What is told.
+struct Answer<'a> {
+    run: &'a Results,
+    worn: &'a Worn,
+    along: &'a str,
+    found: &'a Comparison,
+}
+
+impl Answer<'_> {
+    fn record(&self) -> Value {
+        let found = self.found;
+        let numbers: serde_json::Map<String, Value> = found
+            .numbers
+            .iter()
+            .map(|pair| {
+                let of = json!({ "computed": pair.computed, "measured": pair.measured, "difference": pair.difference() });
+                (pair.name.to_owned(), of)
+            })
+            .collect();
+        json!({
+            "measured": found.name,
+            "along": self.along,
+            "body": self.worn.whose,
+            "increment": self.worn.increment,
+            "units": self.run.units(),
+            "numbers": numbers,
+            "worn_volume": self.volume(),
+            "root_mean_square_difference": found.difference,
+            "moved": found.moved,
+            "slope_taken_off": found.taken_off[0],
+            "offset_taken_off": found.taken_off[1],
+            "root_mean_square_beside_the_scar": found.beside,
+            "unfinished": self.run.unfinished(),
+            "notes": found.notes,
+        })
+    }
+
+    /// Wear volume of the run, at the increment.
+    fn volume(&self) -> f64 {
+        self.run.table.at("worn_volume", self.worn.increment)
+    }
+
+    fn csv(&self) -> String {
+        let head = |name: &str| Units::heading(self.run.units(), name, "length", false);
+        let mut text =
+            format!("{},{},{}\n", head(self.along), head("computed_depth"), head("measured_depth"));
+        for ((x, computed), measured) in
+            self.found.x.iter().zip(&self.found.computed).zip(&self.found.measured)
+        {
+            let _ = writeln!(text, "{x:e},{computed:e},{measured:e}");
+        }
+        text
+    }
+
+    fn picture(&self) -> String {
+        let unit = self.run.units().map(|units| units.length.clone());
+        let label = |name: &str| Label { name: name.to_owned(), unit: unit.clone() };
+        let curve = |z: &[f64], name: &str, colour: usize| {
+            let points = self.found.x.iter().zip(z).map(|(x, z)| [*x, -z]).collect();
+            Curve::line(points, name, colour)
+        };
+        let curves =
+            vec![curve(&self.found.measured, "measured", 1), curve(&self.found.computed, "computed", 0)];
+        let axes = [label(self.along), label("height")];
+        Chart::new("wear scar, computed and measured", axes, curves)
+            .drawing()
+            .alone(&[&self.run.title(), &format!("wear scar of {}, {}", self.worn.whose, self.found.name)])
+    }
+
+    fn text(&self) -> String {
+        let found = self.found;
+        let units = self.run.units();
+        let mut text = self.run.unfinished().map_or(String::new(), |why| format!("{why}\n"));
+        let _ = writeln!(
+            text,
+            "wear scar of {} after increment {}, along {}, beside {}\n",
+            self.worn.whose, self.worn.increment, self.along, found.name
+        );
+        let _ = writeln!(text, "  {:<8} {:<18} {:<18} difference", "", "computed", "measured");
+        for pair in &found.numbers {
+            let Pair { name, kind, computed, measured } = pair;
+            let [computed, measured] = [computed, measured].map(|value| figure_in(units, *value, kind));
+            let _ = writeln!(
+                text,
+                "  {name:<8} {computed:<18} {measured:<18} {:+.1} %",
+                100.0 * pair.difference()
+            );
+        }
+        let length = |value: f64| figure_in(units, value, "length");
+        let kind_of_volume = if self.run.grid().is_line() { "length^2" } else { "length^3" };
+        let _ = writeln!(text, "  volume   {}", figure_in(units, self.volume(), kind_of_volume));
+        let _ = writeln!(text, "  root mean square of the difference: {}", length(found.difference));
+        let _ = writeln!(
+            text,
+            "\nwidths at a tenth of the depth; the measured line was levelled by what lies beside the scar (slope {}, root mean square there \
+             {}) and moved by {}, so that the middles of both scars lie together",
+            figure(found.taken_off[0]),
+            length(found.beside),
+            length(found.moved)
+        );
+        for note in &found.notes {
+            let _ = writeln!(text, "note: {note}");
+        }
+        text
+    }
+}
