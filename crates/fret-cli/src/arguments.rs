@@ -69,9 +69,10 @@ pub enum Verb {
         #[arg(long, short, value_name = "DIR")]
         out: Option<PathBuf>,
     },
-    /// Write one HTML page of a run: loops, sections, zone maps, energy, convergence; needs no network
+    /// Write one HTML page of a run (loops, sections, zone maps, energy, convergence), of a sweep (fretting map, curves, uncertainty) or of
+    /// a study; needs no network
     Report {
-        /// The folder of the results
+        /// The folder of the results of a run, a sweep or a study
         results: PathBuf,
         /// The page to write [default: report.html in that folder]
         #[arg(long, short, value_name = "FILE")]

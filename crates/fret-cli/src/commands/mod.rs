@@ -1,5 +1,6 @@
 //! The verbs of `fret`, one file each, with what they need beside.
 
+mod besides;
 pub mod check;
 mod crack;
 pub mod explain;

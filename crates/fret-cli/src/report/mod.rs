@@ -1,13 +1,15 @@
-//! A run in one page: HTML with its style, its drawings and its script inside, so that it needs neither network nor other files, and
+//! A run, a sweep or a study in one page: HTML with its style, its drawings and its script inside, so that it needs neither network nor other files, and
 //! tells the browser to refuse both.
 //!
 //! From the ground: `html` (numbers and parts), `overview` (the run as a whole, and the closed forms that speak about it), `window` (what of
-//! the grid is shown), `chapters` (what the page tells), and the page itself here.
+//! the grid is shown), `chapters` (what the page tells), and the page itself here; `sweep` and `study` are pages of their own.
 
 mod chapters;
 pub mod html;
 mod literature;
 mod overview;
+pub mod study;
+pub mod sweep;
 mod window;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};

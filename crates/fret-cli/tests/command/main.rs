@@ -22,6 +22,8 @@ mod stressed;
 mod studied;
 mod surfaces;
 mod swept;
+mod swept_pages;
+mod swept_stresses;
 mod told;
 mod units;
 mod unwritten;
