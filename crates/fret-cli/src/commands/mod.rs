@@ -4,6 +4,7 @@ mod besides;
 pub mod check;
 mod crack;
 pub mod explain;
+pub mod explore;
 pub mod export;
 mod fatigue;
 pub mod heat;

@@ -1,5 +1,7 @@
 //! What a point of a sweep came to, as it is written down and read back.
 
+use std::ops::Range;
+
 use fret_core::history::{CycleRecord, History, StepRecord};
 use serde::{Deserialize, Serialize};
 
@@ -65,16 +67,21 @@ pub struct Path {
 const MOST_POINTS: usize = 240;
 
 impl Path {
-    /// The path of a history, of its last cycle where there is one.
+    /// The path of the last cycle of a history, or of the whole of it, thinned out where it is long.
     fn of(history: &History) -> Self {
-        let steps = match history.cycles.last() {
-            Some(cycle) => {
-                let first = cycle.first_increment.saturating_sub(1);
-                let end = (cycle.last_increment + 1).min(history.steps.len());
-                &history.steps[first.min(end)..end]
-            }
-            None => &history.steps[..],
-        };
+        let mut path = Self::through(&history.steps[last_cycle(history)]);
+        let every = path.points.len().div_ceil(MOST_POINTS).max(1);
+        let all = path.points.len();
+        let mut place = 0;
+        path.points.retain(|_| {
+            place += 1;
+            (all - place).is_multiple_of(every)
+        });
+        path
+    }
+
+    /// The path through some increments, all of them.
+    pub fn through(steps: &[StepRecord]) -> Self {
         let range = |of: &dyn Fn(&StepRecord) -> f64| {
             let values = steps.iter().map(of);
             let ends = values.fold([0.0_f64; 2], |[low, high], value| [low.min(value), high.max(value)]);
@@ -86,16 +93,7 @@ impl Path {
         };
         let twists = range(&|step: &StepRecord| step.twist_moment) * range(&|step: &StepRecord| step.twist)
             > sideways(0).max(sideways(1));
-        let longest = |of: &dyn Fn(&StepRecord) -> [f64; 2]| {
-            let vectors = || steps.iter().map(of).map(|[x, y]| ([x, y], x.hypot(y)));
-            let most = vectors().fold(0.0, |most: f64, (_, length)| most.max(length));
-            vectors()
-                .find(|(_, length)| *length > 0.5 * most)
-                .map(|([x, y], length)| [x / length, y / length])
-        };
-        let [cosine, sine] = longest(&|step: &StepRecord| step.tangential_force)
-            .or_else(|| longest(&|step: &StepRecord| step.shift))
-            .unwrap_or([1.0, 0.0]);
+        let [cosine, sine] = direction(steps);
         let along = |[x, y]: [f64; 2]| cosine * x + sine * y;
         let point = |step: &StepRecord| {
             if twists {
@@ -104,11 +102,32 @@ impl Path {
                 [along(step.shift), along(step.tangential_force)]
             }
         };
-        let every = steps.len().div_ceil(MOST_POINTS).max(1);
-        let last = steps.len().saturating_sub(1);
-        let kept = steps.iter().enumerate().filter(|(place, _)| (last - place).is_multiple_of(every));
-        Self { twists, points: kept.map(|(_, step)| point(step)).collect() }
+        Self { twists, points: steps.iter().map(point).collect() }
     }
+}
+
+/// Increments of the last cycle, with the one before it; all where there are no cycles.
+pub fn last_cycle(history: &History) -> Range<usize> {
+    let all = history.steps.len();
+    match history.cycles.last() {
+        Some(cycle) => {
+            let first = cycle.first_increment.saturating_sub(1);
+            first.min(all)..(cycle.last_increment + 1).min(all)
+        }
+        None => 0..all,
+    }
+}
+
+/// Direction of the largest tangential force, or else of the largest shift, with the sign of the first push; along x where there is none.
+pub fn direction(steps: &[StepRecord]) -> [f64; 2] {
+    let longest = |of: &dyn Fn(&StepRecord) -> [f64; 2]| {
+        let vectors = || steps.iter().map(of).map(|[x, y]| ([x, y], x.hypot(y)));
+        let most = vectors().fold(0.0, |most: f64, (_, length)| most.max(length));
+        vectors().find(|(_, length)| *length > 0.5 * most).map(|([x, y], length)| [x / length, y / length])
+    };
+    longest(&|step: &StepRecord| step.tangential_force)
+        .or_else(|| longest(&|step: &StepRecord| step.shift))
+        .unwrap_or([1.0, 0.0])
 }
 
 const SOLVED: &str = "solved";

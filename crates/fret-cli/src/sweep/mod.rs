@@ -12,7 +12,7 @@ mod question;
 mod record;
 mod spread;
 
-pub use answer::{Answer, Besides, Path};
+pub use answer::{Answer, Besides, Path, direction, last_cycle};
 pub use folder::{Kept, POINTS, RECORD, SweepFolder, UNCERTAINTY};
 pub use planned::{Planned, asks_for_more};
 pub use question::{Point, Question};

@@ -6,6 +6,7 @@ mod answered;
 mod bench;
 mod broken_off;
 mod damaged;
+mod explored;
 mod heated;
 mod hostile;
 mod interrupted;

@@ -17,6 +17,7 @@ use super::whole_page;
 use crate::failure::Failure;
 use crate::figures::counted;
 use view::View;
+pub use view::called;
 
 /// The page of a sweep, and how many points it has.
 ///

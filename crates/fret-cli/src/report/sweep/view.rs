@@ -9,6 +9,7 @@ use serde_json::Value;
 use crate::commands::stress_kinds::stress_called;
 use crate::drawing::scale::Label;
 use crate::failure::Failure;
+use crate::figures::unit_of;
 use crate::report::html::{given, number};
 use crate::sweep::columns::{SummaryColumn, columns};
 use crate::sweep::{Answer, Kept, POINTS, RECORD, SweepRecord, UNCERTAINTY};
@@ -128,10 +129,7 @@ impl View {
 
     /// The unit of a kind of quantity, where the cases declare units.
     pub fn unit(&self, kind: &str) -> Option<String> {
-        let heading =
-            fret_core::case::Units::heading(self.record.units.as_ref(), "", kind, self.record.is_line);
-        let unit = heading.trim().trim_start_matches('[').trim_end_matches(']');
-        (!unit.is_empty()).then(|| unit.replace("^2", "²").replace("^3", "³"))
+        unit_of(self.record.units.as_ref(), kind, self.record.is_line)
     }
 
     /// The name of a column as an axis.
@@ -186,16 +184,34 @@ fn words_of(key: &str) -> Vec<&str> {
     key.split('.').filter(|part| part.parse::<usize>().is_err()).collect()
 }
 
+/// Words of keys that are called otherwise.
+const SPOKEN: [(&str, &str); 3] =
+    [("young", "Young's modulus"), ("poisson", "Poisson's ratio"), ("max_shear", "shear strength")];
+
 /// A key in words: `load.rub.tangential_force.0` is `tangential force, rub`.
 pub fn called(key: &str) -> String {
     let words = words_of(key);
     let Some((end, before)) = words.split_last() else { return key.to_owned() };
-    let spoken = end.replace('_', " ");
+    let spoken = SPOKEN.iter().find(|(word, _)| word == end).map_or(*end, |(_, words)| words);
+    let axis = if key.ends_with(".1") { " y" } else { "" };
+    let spoken = spoken.replace('_', " ") + axis;
+    let number = |list: &str| {
+        let rest = key.split_once(list)?.1.trim_start_matches('.');
+        rest.split('.').next()?.parse::<usize>().ok()
+    };
+    let place = |words: &[&str]| -> String {
+        let one = |word: &&str| match number(word) {
+            Some(place) if *word == "coatings" => format!("coating {}", place + 1),
+            _ => word.replace('_', " "),
+        };
+        words.iter().map(one).collect::<Vec<_>>().join(" ")
+    };
     match before {
-        ["friction" | "wear" | "profile"] => format!("{} {spoken}", before[0]),
+        ["profile", shape] => format!("{spoken} of the {}", shape.replace('_', " ")),
+        ["friction" | "wear"] if before[0] != *end => format!("{} {spoken}", before[0]),
         [] | ["load" | "grid"] => spoken,
-        ["load", rest @ ..] => format!("{spoken}, {}", rest.join(" ")),
-        before => format!("{spoken}, {}", before.join(" ").replace('_', " ")),
+        ["load", rest @ ..] => format!("{spoken}, {}", place(rest)),
+        before => format!("{spoken}, {}", place(before)),
     }
 }
 
@@ -239,7 +255,9 @@ mod tests {
             ("friction.coefficient", "friction coefficient"),
             ("load.rub.tangential_force.0", "tangential force, rub"),
             ("load.0.normal_force", "normal force"),
-            ("lower.coatings.0.young", "young, lower coatings"),
+            ("lower.coatings.1.young", "Young's modulus, lower coating 2"),
+            ("load.rub.shift.1", "shift y, rub"),
+            ("profile.sphere.radius", "radius of the sphere"),
             ("grid.cells", "cells"),
         ] {
             assert_eq!(called(key), words);
