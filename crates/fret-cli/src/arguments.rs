@@ -69,14 +69,17 @@ pub enum Verb {
         #[arg(long, short, value_name = "DIR")]
         out: Option<PathBuf>,
     },
-    /// Write one HTML page of a run: loops, sections, zone maps, energy, convergence; needs no network
+    /// Write one HTML page of a run (loops, sections, zone maps, energy, convergence), of a sweep (fretting map, curves, uncertainty) or of
+    /// a study; needs no network
     Report {
-        /// The folder of the results
+        /// The folder of the results of a run, a sweep or a study
         results: PathBuf,
         /// The page to write [default: report.html in that folder]
         #[arg(long, short, value_name = "FILE")]
         out: Option<PathBuf>,
     },
+    /// Play with a case in the browser: sliders for moduli, thickness, friction and loads solve it again while they are dragged
+    Explore(ExploreArguments),
     /// Convert the results of a run: NumPy, CSV, VTK
     Export(ExportArguments),
     /// Refinement study: errors, orders of convergence and times over grids and increments, and which to choose
@@ -171,6 +174,22 @@ pub struct StudyArguments {
     /// Print only errors and the result
     #[arg(long, short)]
     pub quiet: bool,
+}
+
+/// Which case to play with.
+#[derive(Debug, Args)]
+pub struct ExploreArguments {
+    /// The case file (TOML); - reads it from standard input
+    pub case: PathBuf,
+    /// Cells along the longer side of the grid, at the most (a line contact: four times as many); more are slower
+    #[arg(long, value_name = "N", default_value = "64", value_parser = clap::value_parser!(u16).range(8..=512))]
+    pub cells: u16,
+    /// Port of this machine [default: one that is free]
+    #[arg(long, value_name = "N", default_value = "0", hide_default_value = true)]
+    pub port: u16,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = threads::number)]
+    pub threads: Option<u16>,
 }
 
 /// What to write of a run, in which form.

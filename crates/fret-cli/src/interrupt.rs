@@ -102,6 +102,19 @@ impl Observer for Listener {
     }
 }
 
+/// The same for a history that is asked for its fields when it is solved.
+pub struct Keeper;
+
+impl Observer for Keeper {
+    fn iterated(&mut self, _: &Iteration) -> ControlFlow<()> {
+        go_on()
+    }
+
+    fn solved(&mut self, _: &StepRecord, _: MirroredState<'_>, _: Option<&KeptFields>) -> ControlFlow<()> {
+        go_on()
+    }
+}
+
 /// Whether to go on.
 pub fn go_on() -> ControlFlow<()> {
     if is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }

@@ -8,6 +8,7 @@ mod defect;
 mod drawing;
 pub mod embedded;
 mod estimate;
+mod explore;
 mod export;
 mod failure;
 mod figures;
@@ -75,6 +76,7 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         Verb::Completions { shell } => commands::shells::completions(*shell),
         Verb::Man { out } => commands::shells::manual(out.as_deref(), as_json),
         Verb::Report { results, out } => commands::report::report(results, out.as_deref(), as_json),
+        Verb::Explore(arguments) => commands::explore::explore(arguments, as_json),
         Verb::Export(arguments) => commands::export::export(arguments, as_json),
         Verb::Study(arguments) => commands::study::study(arguments, as_json),
         Verb::Stress(arguments) => commands::stress::stress(arguments, as_json),

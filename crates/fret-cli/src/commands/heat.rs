@@ -57,14 +57,19 @@ pub fn heat(arguments: &HeatArguments, as_json: bool) -> Result<(), Failure> {
     }
 }
 
-/// Temperatures and resistances of a run that has just ended.
-pub fn after_run(folder: &Path, quiet: bool) -> Result<(), Failure> {
+/// Temperatures and resistances of a run that has just ended; nothing of what has none: a line contact, a run without kept fields.
+pub fn answered(folder: &Path) -> Result<Option<(Value, String)>, Failure> {
     let run = Results::read(folder)?;
-    if run.grid().is_line() || run.fields.reached.is_empty() {
-        return Ok(());
+    let has_none = run.case().conduction.is_none() || run.grid().is_line() || run.fields.reached.is_empty();
+    if has_none { Ok(None) } else { computed(folder, &run, None).map(Some) }
+}
+
+/// The same, told to a person.
+pub fn after_run(folder: &Path, quiet: bool) -> Result<(), Failure> {
+    match answered(folder)? {
+        Some((_, table)) if !quiet => terminal::answer(&table),
+        _ => Ok(()),
     }
-    let (_, table) = computed(folder, &run, None)?;
-    if quiet { Ok(()) } else { terminal::answer(&table) }
 }
 
 fn of([lower, upper]: &[Option<Conductor>; 2]) -> [Option<&Conductor>; 2] {

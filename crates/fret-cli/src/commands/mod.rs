@@ -1,10 +1,12 @@
 //! The verbs of `fret`, one file each, with what they need beside.
 
+mod besides;
 pub mod check;
 mod columns_asked;
 pub mod compare_scar;
 mod crack;
 pub mod explain;
+pub mod explore;
 pub mod export;
 mod fatigue;
 pub mod heat;

@@ -1,34 +1,70 @@
-//! `fret report`: a run in one page.
+//! `fret report`: a run, a sweep or a study in one page.
 
 use std::path::Path;
 
 use serde_json::json;
 
 use crate::failure::Failure;
-use crate::report::page;
+use crate::report::{page, study, sweep};
+use crate::sweep::RECORD as SWEEP;
 use crate::terminal;
 use fret_results::Results;
 use fret_results::write_whole;
 
+/// A page with what is told of it.
+struct Page {
+    text: String,
+    /// What is counted, and how many.
+    counted: (&'static str, usize),
+    /// Why a run is not finished.
+    unfinished: Option<String>,
+}
+
+/// The page of what lies in the folder.
+fn page_of(folder: &Path) -> Result<Page, Failure> {
+    if folder.join(SWEEP).is_file() {
+        let (text, points) = sweep::page(folder)?;
+        return Ok(Page { text, counted: ("points", points), unfinished: None });
+    }
+    if folder.join(study::STUDY).is_file() {
+        let (text, levels) = study::page(folder)?;
+        return Ok(Page { text, counted: ("levels", levels), unfinished: None });
+    }
+    if folder.join("points").is_dir() {
+        let way_out = if folder.join("sweep.toml").is_file() {
+            "run `fret sweep` once more: finished points of this version are not solved again"
+        } else {
+            "a sweep of Python is an xarray.Dataset: fretting.plot.regime_map draws it; `fret sweep` writes folders with a page"
+        };
+        return Err(Failure::Call(
+            format!("{}: a sweep without the list of its points", folder.display()),
+            way_out.to_owned(),
+        ));
+    }
+    let results = Results::read(folder)?;
+    let unfinished = results.unfinished();
+    Ok(Page { text: page(&results)?, counted: ("increments", results.table.rows()), unfinished })
+}
+
 /// Writes the page and tells where it is.
 pub fn report(folder: &Path, out: Option<&Path>, as_json: bool) -> Result<(), Failure> {
-    let results = Results::read(folder)?;
+    let Page { text, counted: (what, count), unfinished } = page_of(folder)?;
     let path = out.map_or_else(|| folder.join("report.html"), Path::to_owned);
     let is_page = path.extension().is_some_and(|extension| extension == "html" || extension == "htm");
     if path.is_dir() || (path.exists() && !is_page) {
-        let what =
+        let found =
             if path.is_dir() { "a folder" } else { "a file that is there already and is no .html file" };
         return Err(Failure::Call(
-            format!("{}: {what}", path.display()),
+            format!("{}: {found}", path.display()),
             "choose another place for the page with --out FILE".to_owned(),
         ));
     }
-    write_whole(&path, page(&results)?.as_bytes())?;
+    write_whole(&path, text.as_bytes())?;
     let shown = path.display().to_string();
     if as_json {
-        let answer = json!({ "status": "reported", "file": shown, "increments": results.table.rows(), "unfinished": results.unfinished() });
+        let answer = json!({ "status": "reported", "file": shown, what: count, "unfinished": unfinished });
         return terminal::answer_in_json(&answer);
     }
     terminal::answer(&shown)?;
-    results.unfinished().map_or(Ok(()), |why| terminal::answer(&why))
+    unfinished.map_or(Ok(()), |why| terminal::answer(&why))
 }

@@ -180,13 +180,17 @@ fn fill(volume: &mut Volume, point: usize, field: &StressField) -> Result<(), Un
     volume.plane("tension", point, |i, j| field.at(i, j).principal().values[0])
 }
 
-/// Stresses of a run that has just ended, as its case asks.
-pub fn after_run(folder: &Path, quiet: bool) -> Result<(), Failure> {
+/// Stresses of a run that has just ended, as its case asks; nothing where it does not.
+pub fn answered(folder: &Path) -> Result<Option<Answer>, Failure> {
     let run = Results::read(folder)?;
-    let Some(request) = run.case().stress.clone() else { return Ok(()) };
-    let answer = computed(folder, &run, &request)?;
-    if !quiet {
-        terminal::answer(&answer.table)?;
+    let Some(request) = run.case().stress.clone() else { return Ok(None) };
+    computed(folder, &run, &request).map(Some)
+}
+
+/// The same, told to a person.
+pub fn after_run(folder: &Path, quiet: bool) -> Result<(), Failure> {
+    match answered(folder)? {
+        Some(answer) if !quiet => terminal::answer(&answer.table),
+        _ => Ok(()),
     }
-    Ok(())
 }

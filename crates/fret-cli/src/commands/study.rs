@@ -17,6 +17,7 @@ use crate::defect;
 use crate::failure::Failure;
 use crate::figures::{counted, duration};
 use crate::interrupt::{self, Listener};
+use crate::report::study::STUDY;
 use crate::study::levels::{LEVELS, Levels};
 use crate::study::{picture, reference, table, words};
 use crate::terminal;
@@ -24,8 +25,6 @@ use crate::threads;
 use fret_results::CaseFile;
 use fret_results::{folder_for_answers, write_whole};
 
-/// The answer, which marks its folder.
-const STUDY: &str = "study.json";
 /// Accuracies a choice is told for.
 const ACCURACIES: [f64; 3] = [1e-2, 1e-3, 1e-4];
 /// Levels quicker than this are timed again [s], the least of a few times counts.

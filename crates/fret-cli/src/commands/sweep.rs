@@ -8,16 +8,18 @@ use std::sync::{Condvar, Mutex, PoisonError};
 use std::time::Instant;
 
 use fret_core::case::CaseError;
+use fret_core::history::History;
 use fret_core::machine::memory::{self, Claim, MemoryError};
 use fret_core::plan::{LeaveOut, Plan};
-use fret_core::run::{RunError, Simulation};
+use fret_core::run::{Observer, RunError, Simulation};
 use serde_json::json;
 
+use super::besides::besides;
 use crate::arguments::SweepArguments;
 use crate::failure::{Failure, Told};
 use crate::figures::{counted, duration};
-use crate::interrupt::{self, Listener};
-use crate::sweep::{Answer, Planned, Point, Question, SweepFolder};
+use crate::interrupt::{self, Keeper, Listener};
+use crate::sweep::{Answer, Besides, Planned, Point, Question, SweepFolder, asks_for_more};
 use crate::terminal;
 use crate::threads;
 use fret_results::Origin;
@@ -30,6 +32,7 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
     let own = || Path::new("results").join(stem(&arguments.sweep, "sweep"));
     let path = arguments.out.clone().unwrap_or_else(own);
     let folder = SweepFolder::open(&path, &question.text, origin.as_ref())?;
+    folder.list(&question)?;
     interrupt::listen();
     let threads = threads::asked(arguments.threads);
     let known: Vec<Option<Answer>> = question.points.iter().map(|point| folder.finished(point)).collect();
@@ -59,11 +62,12 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
             terminal::answer(&format!("{table}\n"))?;
         }
         terminal::answer(&format!(
-            "{} solved, {} not, {} found finished\nsummary    {}",
+            "{} solved, {} not, {} found finished\nsummary    {}\npage       fret report {}",
             counts.solved,
             counts.unsolved(),
             board.before,
-            summary.display()
+            summary.display(),
+            path.display()
         ))?;
     }
     match counts {
@@ -81,6 +85,11 @@ fn lacks_memory(failure: &Failure) -> bool {
         Failure::Case(error) => error.lacks_memory(),
         _ => false,
     }
+}
+
+/// Whether a failure says nothing of the point: somebody stopped, or another machine has the memory or the room.
+fn is_no_answer(failure: &Failure) -> bool {
+    lacks_memory(failure) || matches!(failure, Failure::Interrupted(_) | Failure::Unwritten(_))
 }
 
 /// How many points came to what.
@@ -214,14 +223,24 @@ impl<'a> Board<'a> {
             let solve = || -> Result<Answer, Failure> {
                 let known = self.planned.plan_of(number);
                 let plan = known.map_or_else(|| self.plan(point), Ok)?;
-                let _at_work = self.memory_for(&plan)?;
+                let at_work = self.memory_for(&plan)?;
                 let simulation = Simulation::new(&plan).in_claimed_memory();
-                let (history, outcome, common) = self.planned.common.solve(number, simulation, &mut Listener);
+                let asks = asks_for_more(&plan);
+                let observer: &mut dyn Observer = if asks { &mut Keeper } else { &mut Listener };
+                let (history, outcome, common) = self.planned.common.solve(number, simulation, observer);
                 outcome.map_err(|error| match error {
                     RunError::Interrupted { .. } => Failure::Interrupted(String::new()),
                     error => Failure::Unsolved(error),
                 })?;
-                Ok(Answer::solved(&history, common))
+                let answer = Answer::solved(&history, common);
+                drop(at_work);
+                if !asks {
+                    return Ok(answer);
+                }
+                match self.besides(&folder.beside(point), point, &plan, &history) {
+                    Err(failure) if is_no_answer(&failure) => Err(failure),
+                    more => Ok(answer.asked(more)),
+                }
             };
             let answer = match catch_unwind(AssertUnwindSafe(|| pool.install(solve))) {
                 Ok(Ok(answer)) => answer,
@@ -235,6 +254,7 @@ impl<'a> Board<'a> {
                     self.tell(number, Answer::unsolved(&failure));
                     continue;
                 }
+                Ok(Err(failure @ Failure::Unwritten(_))) => return Err(failure),
                 Ok(Err(failure)) => Answer::unsolved(&failure),
                 Err(_) => Answer::unsolved(&Failure::Defect(format!("point {number} ended in a panic"))),
             };
@@ -266,15 +286,39 @@ impl<'a> Board<'a> {
 
     /// Memory for a point, beside the points that are at work: waited for while any of them is.
     fn memory_for(&self, plan: &Plan) -> Result<AtWork<'_>, MemoryError> {
+        let kept = if asks_for_more(plan) { plan.kept_bytes } else { 0 };
         let mut at_work = self.at_work.lock().unwrap_or_else(PoisonError::into_inner);
         loop {
-            match memory::claim(plan.memory_bytes) {
+            match memory::claim(plan.memory_bytes.saturating_add(kept)) {
                 Ok(claim) => {
                     *at_work += 1;
                     return Ok(AtWork(self, Some(claim)));
                 }
                 Err(error) if *at_work == 0 => return Err(error),
                 Err(_) => at_work = self.freed.wait(at_work).unwrap_or_else(PoisonError::into_inner),
+            }
+        }
+    }
+
+    /// What the case of a point asks for besides; where there is no memory for it, that of the points at work is waited for.
+    fn besides(
+        &self,
+        folder: &Path,
+        point: &Point,
+        plan: &Plan,
+        history: &History,
+    ) -> Result<Besides, Failure> {
+        let mut is_alone = false;
+        loop {
+            match besides(folder, point, plan, history) {
+                Err(failure) if lacks_memory(&failure) && !is_alone => {
+                    let at_work = self.at_work.lock().unwrap_or_else(PoisonError::into_inner);
+                    is_alone = *at_work == 0;
+                    if !is_alone {
+                        drop(self.freed.wait(at_work).unwrap_or_else(PoisonError::into_inner));
+                    }
+                }
+                outcome => return outcome,
             }
         }
     }

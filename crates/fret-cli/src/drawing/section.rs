@@ -2,6 +2,7 @@
 
 use fret_core::case::Units;
 
+use crate::drawing::Drawing;
 use crate::drawing::map::Map;
 use crate::drawing::raster::Raster;
 use crate::drawing::scale::Label;
@@ -36,11 +37,17 @@ pub struct Section<'a> {
 }
 
 impl Section<'_> {
-    /// The picture; empty without data.
+    /// The picture as a file of its own; empty without data.
     pub fn svg(&self) -> Result<String, Failure> {
-        let (Some(first), Some(last)) = (self.x.first(), self.x.last()) else { return Ok(String::new()) };
+        let drawing = self.drawing(WIDTH)?;
+        Ok(drawing.map_or_else(String::new, |drawing| drawing.alone(&[self.title, self.subject])))
+    }
+
+    /// The picture of a width; none without data.
+    pub fn drawing(&self, width: f64) -> Result<Option<Drawing>, Failure> {
+        let (Some(first), Some(last)) = (self.x.first(), self.x.last()) else { return Ok(None) };
         let (Some(top), Some(bottom)) = (self.depths.first(), self.depths.last()) else {
-            return Ok(String::new());
+            return Ok(None);
         };
         let half = if self.x.len() > 1 { 0.5 * (self.x[1] - self.x[0]) } else { 0.5 };
         let finite = || self.values.iter().flatten().copied().filter(|value| value.is_finite());
@@ -58,7 +65,7 @@ impl Section<'_> {
         };
         let map = Map {
             what: format!("{}, {}", self.quantity.0, self.subject),
-            width: WIDTH,
+            width,
             axes: [label("x", "length"), label("depth", "length")],
             x: [first - half, last + half],
             y: [*top, *bottom],
@@ -68,7 +75,7 @@ impl Section<'_> {
             bar: Some((label(self.quantity.0, self.quantity.1), range)),
             levels: self.interfaces.iter().copied().filter(|face| face > top && face < bottom).collect(),
         };
-        Ok(map.drawing()?.alone(&[self.title, self.subject]))
+        map.drawing().map(Some)
     }
 
     /// The row nearest to a depth, on its side of an interface.

@@ -1,21 +1,25 @@
-//! A run in one page: HTML with its style, its drawings and its script inside, so that it needs neither network nor other files, and
+//! A run, a sweep or a study in one page: HTML with its style, its drawings and its script inside, so that it needs neither network nor other files, and
 //! tells the browser to refuse both.
 //!
 //! From the ground: `html` (numbers and parts), `overview` (the run as a whole, and the closed forms that speak about it), `window` (what of
-//! the grid is shown), `chapters` (what the page tells), and the page itself here.
+//! the grid is shown), `chapters` (what the page tells), and the page itself here; `sweep` and `study` are pages of their own.
 
 mod chapters;
 pub mod html;
 mod literature;
 mod overview;
+pub mod study;
+pub mod sweep;
 mod window;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::drawing;
 use crate::failure::Failure;
+pub use chapters::{cell_of_pixel, json_in_page};
 use fret_results::Results;
 use overview::Overview;
+pub use sweep::called;
 
 /// The style of the page.
 const STYLE: &str = include_str!("page.css");
@@ -33,17 +37,32 @@ pub fn page(results: &Results) -> Result<String, Failure> {
 
 /// A page with the style, the script and the limits of all.
 pub fn whole_page(title: &str, content: &Markup) -> String {
+    page_with(title, content, &PageParts { policy: POLICY, style: "", script: SCRIPT })
+}
+
+/// What a page has of its own.
+pub struct PageParts<'a> {
+    /// What the browser may do.
+    pub policy: &'a str,
+    /// Style beside that of all pages.
+    pub style: &'a str,
+    /// Its script.
+    pub script: &'a str,
+}
+
+/// A page with the style of all, and what it has of its own.
+pub fn page_with(title: &str, content: &Markup, parts: &PageParts<'_>) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
             head {
                 meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta http-equiv="Content-Security-Policy" content=(parts.policy);
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (title) }
-                style { (PreEscaped(drawing::STYLE)) (PreEscaped(STYLE)) }
+                style { (PreEscaped(drawing::STYLE)) (PreEscaped(STYLE)) (PreEscaped(parts.style)) }
             }
-            body { main { (content) } script { (PreEscaped(SCRIPT)) } }
+            body { main { (content) } script { (PreEscaped(parts.script)) } }
         }
     };
     page.into_string() + "\n"

@@ -1,9 +1,22 @@
 //! What a point of a sweep came to, as it is written down and read back.
 
+use std::ops::Range;
+
 use fret_core::history::{CycleRecord, History, StepRecord};
 use serde::{Deserialize, Serialize};
 
+use crate::commands::heat_record::HeatRecord;
+use crate::commands::stress_record::StressRecord;
 use crate::failure::{Failure, FailureRecord};
+
+/// What a case asks for after it is solved.
+#[derive(Debug, Default)]
+pub struct Besides {
+    /// Stresses, fatigue, crack and coating.
+    pub stress: Option<StressRecord>,
+    /// Temperatures and resistances.
+    pub heat: Option<HeatRecord>,
+}
 
 /// What a point came to.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -26,6 +39,95 @@ pub struct Numbers {
     stages: Vec<StepRecord>,
     /// The last cycle.
     pub cycle: Option<CycleRecord>,
+    /// What moves: displacement and tangential force along the load, or twist and moment, of the last cycle; of the whole history where
+    /// there are no cycles.
+    #[serde(default)]
+    pub path: Path,
+    /// Stresses, fatigue, crack and coating, where the case asks for them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stress: Option<StressRecord>,
+    /// Temperatures and resistances, where the case asks for them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heat: Option<HeatRecord>,
+    /// Why some of these are not there although the case asks for them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unanswered: Option<String>,
+}
+
+/// The way of a loading: a loop.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub struct Path {
+    /// Whether it is a rotation over its moment, not a displacement over its force.
+    pub twists: bool,
+    /// Motion and load, increment by increment.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// More points of a path than this are thinned out.
+const MOST_POINTS: usize = 240;
+
+impl Path {
+    /// The path of the last cycle of a history, or of the whole of it, thinned out where it is long.
+    fn of(history: &History) -> Self {
+        let mut path = Self::through(&history.steps[last_cycle(history)]);
+        let every = path.points.len().div_ceil(MOST_POINTS).max(1);
+        let all = path.points.len();
+        let mut place = 0;
+        path.points.retain(|_| {
+            place += 1;
+            (all - place).is_multiple_of(every)
+        });
+        path
+    }
+
+    /// The path through some increments, all of them.
+    pub fn through(steps: &[StepRecord]) -> Self {
+        let range = |of: &dyn Fn(&StepRecord) -> f64| {
+            let values = steps.iter().map(of);
+            let ends = values.fold([0.0_f64; 2], |[low, high], value| [low.min(value), high.max(value)]);
+            ends[1] - ends[0]
+        };
+        let sideways = |axis: usize| {
+            range(&|step: &StepRecord| step.tangential_force[axis])
+                * range(&|step: &StepRecord| step.shift[axis])
+        };
+        let twists = range(&|step: &StepRecord| step.twist_moment) * range(&|step: &StepRecord| step.twist)
+            > sideways(0).max(sideways(1));
+        let [cosine, sine] = direction(steps);
+        let along = |[x, y]: [f64; 2]| cosine * x + sine * y;
+        let point = |step: &StepRecord| {
+            if twists {
+                [step.twist, step.twist_moment]
+            } else {
+                [along(step.shift), along(step.tangential_force)]
+            }
+        };
+        Self { twists, points: steps.iter().map(point).collect() }
+    }
+}
+
+/// Increments of the last cycle, with the one before it; all where there are no cycles.
+pub fn last_cycle(history: &History) -> Range<usize> {
+    let all = history.steps.len();
+    match history.cycles.last() {
+        Some(cycle) => {
+            let first = cycle.first_increment.saturating_sub(1);
+            first.min(all)..(cycle.last_increment + 1).min(all)
+        }
+        None => 0..all,
+    }
+}
+
+/// Direction of the largest tangential force, or else of the largest shift, with the sign of the first push; along x where there is none.
+pub fn direction(steps: &[StepRecord]) -> [f64; 2] {
+    let longest = |of: &dyn Fn(&StepRecord) -> [f64; 2]| {
+        let vectors = || steps.iter().map(of).map(|[x, y]| ([x, y], x.hypot(y)));
+        let most = vectors().fold(0.0, |most: f64, (_, length)| most.max(length));
+        vectors().find(|(_, length)| *length > 0.5 * most).map(|([x, y], length)| [x / length, y / length])
+    };
+    longest(&|step: &StepRecord| step.tangential_force)
+        .or_else(|| longest(&|step: &StepRecord| step.shift))
+        .unwrap_or([1.0, 0.0])
 }
 
 const SOLVED: &str = "solved";
@@ -40,6 +142,10 @@ impl Answer {
             end: history.steps.last().cloned(),
             stages: stage_ends(&history.steps),
             cycle: history.cycles.last().cloned(),
+            path: Path::of(history),
+            stress: None,
+            heat: None,
+            unanswered: None,
         };
         Self { told, numbers: Some(numbers) }
     }
@@ -54,7 +160,21 @@ impl Answer {
         self.numbers.is_some() || self.told.status != SOLVED
     }
 
-    /// Why there is none, a line a mistake; nothing of a solved point.
+    /// The same point with what its case asks for besides; where that cannot be had, what is solved stays, and the reason is told.
+    pub fn asked(mut self, more: Result<Besides, Failure>) -> Self {
+        if let Some(numbers) = &mut self.numbers {
+            match more {
+                Ok(Besides { stress, heat }) => (numbers.stress, numbers.heat) = (stress, heat),
+                Err(failure) => {
+                    numbers.unanswered = Some(failure.message());
+                    self.told.message = failure.message();
+                }
+            }
+        }
+        self
+    }
+
+    /// Why there is none, a line a mistake; nothing of a solved point that has all that its case asks for.
     pub fn why(&self) -> Vec<String> {
         match self.told.mistakes.as_deref() {
             Some(mistakes) if !mistakes.is_empty() => {
@@ -69,7 +189,7 @@ impl Answer {
         &self.told.status
     }
 
-    /// Why it ended early; empty of a solved point.
+    /// Why it ended early, or lacks what its case asks for besides; empty otherwise.
     pub fn message(&self) -> &str {
         &self.told.message
     }
@@ -78,4 +198,25 @@ impl Answer {
 fn stage_ends(steps: &[StepRecord]) -> Vec<StepRecord> {
     let ends = |pair: &[StepRecord]| pair[0].stage != pair[1].stage;
     steps.windows(2).filter(|pair| ends(pair)).map(|pair| &pair[0]).chain(steps.last()).cloned().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    /// What cannot be had besides takes nothing away: the numbers of the point stay, and its row says what is missing.
+    #[test]
+    fn a_point_without_its_stresses_keeps_its_numbers_and_says_why() {
+        let solved = json!({"status": "solved", "message": "", "increments_in_common": 3, "stages": [], "end": null, "cycle": null});
+        let solved: Answer = serde_json::from_value(solved).unwrap();
+        let why = "not computed: the slip of increment 3 is not kept";
+        let answer = solved.asked(Err(Failure::Call(why.to_owned(), String::new())));
+        assert_eq!((answer.status(), answer.message()), ("solved", why));
+        assert_eq!(answer.why(), [why]);
+        let read: Answer = serde_json::from_value(json!(answer)).unwrap();
+        assert!(read.is_whole());
+        assert_eq!(read.numbers.unwrap().increments_in_common, 3);
+    }
 }

@@ -1,61 +1,40 @@
 //! The folder of a sweep: `sweep.toml` (verbatim copy), `points/HASH.json` (a finished point, known by the hash of its
-//! case, of the files it names, of the state it starts from and of the version), `summary.csv` (a line a point), of samples `uncertainty.json`.
+//! case, of the files it names, of the state it starts from and of the version), `points.json` (the points in their order), `summary.csv` (a
+//! line a point), of samples `uncertainty.json`.
 
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use fret_core::case::{Units, content};
-use fret_core::history::{self, CYCLE_COLUMNS, Column, CycleRecord, STEP_COLUMNS, StepRecord};
 use fret_core::model::digest;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
 use crate::failure::{Failure, Unwritten};
+use crate::sweep::columns::{SummaryColumn, columns};
+use crate::sweep::record::{PointOfSweep, SweepRecord};
 use crate::sweep::{Answer, Point, Question, Spread};
 use fret_results::Origin;
 use fret_results::{folder_below, resolved_path, write_whole};
 
 /// Version of the folder's format.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 const SWEEP: &str = "sweep.toml";
-const POINTS: &str = "points";
+/// Finished points.
+pub const POINTS: &str = "points";
 const SUMMARY: &str = "summary.csv";
-const UNCERTAINTY: &str = "uncertainty.json";
-
-/// Columns of the summary after the keys: the last increment.
-const END: [&str; 12] = [
-    "normal_force",
-    "approach",
-    "max_pressure",
-    "max_shear",
-    "contact_area",
-    "stick_area",
-    "dissipated_energy",
-    "regime",
-    "tangential_force_x",
-    "tangential_force_y",
-    "shift_x",
-    "shift_y",
-];
-/// Columns of the last cycle.
-const CYCLE: [&str; 9] = [
-    "dissipated_energy",
-    "force_amplitude",
-    "displacement_amplitude",
-    "energy_ratio",
-    "sliding_ratio",
-    "stiffness",
-    "regime",
-    "closure",
-    "max_worn_depth",
-];
+/// What the samples say.
+pub const UNCERTAINTY: &str = "uncertainty.json";
+/// The points in their order.
+pub const RECORD: &str = "points.json";
 
 /// A finished point, as it is written down.
 #[derive(Serialize, Deserialize)]
-struct Kept {
+pub struct Kept {
+    /// What it came to.
     #[serde(flatten)]
-    answer: Answer,
+    pub answer: Answer,
     format: u32,
     version: String,
     values: Map<String, Value>,
@@ -118,16 +97,14 @@ impl SweepFolder {
     /// # Errors
     /// When the file cannot be written.
     pub fn summarise(&self, question: &Question, answers: &[Option<Answer>]) -> Result<PathBuf, Unwritten> {
-        let units = question.points.first().and_then(|point| units_of(&point.case_file.text));
-        let heading = |name: &str, kind: &str| Units::heading(units.as_ref(), name, kind, false);
-        let cycle = of_cycle().map(|column| heading(&format!("cycle_{}", column.name), column.unit));
+        let setting = Setting::of(question);
+        let columns = columns(answers);
         let head = ["point".to_owned()].into_iter().chain(question.keys.iter().cloned());
         let head = head
             .chain(["status".to_owned()])
-            .chain(at_end().map(|column| heading(column.name, column.unit)))
-            .chain(cycle);
-        let mut text =
-            head.chain(["message".to_owned()]).map(|cell| quoted(&cell)).collect::<Vec<_>>().join(",") + "\n";
+            .chain(columns.iter().map(|column| setting.heading(column)))
+            .chain(["message".to_owned()]);
+        let mut text = head.map(|cell| quoted(&cell)).collect::<Vec<_>>().join(",") + "\n";
         for (number, (point, answer)) in question.points.iter().zip(answers).enumerate() {
             let Some(answer) = answer else { continue };
             let _ = write!(text, "{number}");
@@ -135,8 +112,8 @@ impl SweepFolder {
                 let _ = write!(text, ",{}", cell(&value));
             }
             let _ = write!(text, ",{}", cell(&json!(answer.status())));
-            for value in values(answer) {
-                let _ = write!(text, ",{}", cell(&value));
+            for column in &columns {
+                let _ = write!(text, ",{}", cell(&column.values[number]));
             }
             let _ = writeln!(text, ",{}", cell(&json!(answer.message())));
         }
@@ -155,13 +132,13 @@ impl SweepFolder {
         answers: &[Option<Answer>],
     ) -> Result<Option<String>, Unwritten> {
         let Some(design) = &question.design else { return Ok(None) };
-        let rows: Vec<Option<Vec<Value>>> =
-            answers.iter().map(|answer| answer.as_ref().map(values)).collect();
-        let at = |place: usize| rows.iter().map(move |row| row.as_ref()?.get(place)?.as_f64());
-        let names = at_end().map(|column| column.name.to_owned());
-        let names = names.chain(of_cycle().map(|column| format!("cycle_{}", column.name)));
-        let column = |place: usize| at(place).map(|value| value.unwrap_or(f64::NAN)).collect();
-        let columns: Vec<_> = names.enumerate().map(|(place, name)| (name, column(place))).collect();
+        // Means and quantiles of lives of which some have no bound are none: such a column tells nothing.
+        let is_bounded = |column: &SummaryColumn| column.numbers().iter().all(|value| !value.is_infinite());
+        let columns: Vec<_> = columns(answers)
+            .into_iter()
+            .filter(is_bounded)
+            .map(|column| (column.name.clone(), column.numbers()))
+            .collect();
         let keys = question.drawn_keys();
         let beside = question.keys.len() - keys.len();
         let firsts = question.points.iter().step_by(design.points().max(1));
@@ -172,52 +149,90 @@ impl SweepFolder {
         Ok(Some(spread.table()))
     }
 
+    /// Writes down which points there are, in their order: what the page of the sweep is made from.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn list(&self, question: &Question) -> Result<(), Unwritten> {
+        let point = |point: &Point| PointOfSweep {
+            values: point.values.iter().map(plain).collect(),
+            file: self.file_name(point),
+        };
+        let Setting { units, is_line } = Setting::of(question);
+        let record = SweepRecord {
+            title: question.points.first().and_then(|point| title_of(&point.case_file.text)),
+            keys: question.keys.clone(),
+            drawn: question.drawn_keys().to_vec(),
+            units,
+            is_line,
+            points: question.points.iter().map(point).collect(),
+        };
+        write_whole(&self.path.join(RECORD), format!("{}\n", json!(record)).as_bytes())
+    }
+
+    /// A folder beside the finished points for the run of one of them, while it is asked for more than its numbers.
+    pub fn beside(&self, point: &Point) -> PathBuf {
+        self.place(point).with_extension("run")
+    }
+
     fn place(&self, point: &Point) -> PathBuf {
+        self.path.join(POINTS).join(self.file_name(point))
+    }
+
+    fn file_name(&self, point: &Point) -> String {
         let mut known_by = format!("{}\n{}\n", env!("CARGO_PKG_VERSION"), point.case_file.text).into_bytes();
         known_by.extend(self.start.iter().flat_map(|start| start.bytes()));
         let folder = point.case_file.path.parent().unwrap_or_else(|| Path::new(""));
         for name in files_named(&point.case_file.text) {
             known_by.extend(content(&folder.join(name)).unwrap_or_default());
         }
-        self.path.join(POINTS).join(format!("{}.json", digest(known_by)))
+        format!("{}.json", digest(known_by))
     }
 }
 
-/// Columns of the last increment.
-fn at_end() -> impl Iterator<Item = &'static Column<StepRecord>> {
-    END.iter().filter_map(|name| STEP_COLUMNS.iter().find(|column| column.name == *name))
+/// In which units the numbers of a sweep are told.
+struct Setting {
+    units: Option<Units>,
+    is_line: bool,
 }
 
-/// Columns of the last cycle.
-fn of_cycle() -> impl Iterator<Item = &'static Column<CycleRecord>> {
-    CYCLE.iter().filter_map(|name| CYCLE_COLUMNS.iter().find(|column| column.name == *name))
-}
-
-/// Values of all columns; null where an answer has none.
-fn values(answer: &Answer) -> Vec<Value> {
-    fn told<R>(column: &Column<R>, record: Option<&R>) -> Value {
-        let Some(record) = record else { return Value::Null };
-        match column.value {
-            history::Value::Count(of) => json!(of(record)),
-            history::Value::Real(of) => json!(of(record)),
-            history::Value::RealOrNone(of) => json!(of(record)),
-            history::Value::Truth(of) => json!(of(record)),
-            history::Value::Word(of) => json!(of(record)),
-        }
+impl Setting {
+    /// Those of its cases, where all declare the same and have the same kind of contact.
+    fn of(question: &Question) -> Self {
+        let mut all = question.points.iter().map(|point| point.case_file.text.parse::<toml::Table>().ok());
+        let of = |table: Option<toml::Table>| {
+            let table = table.unwrap_or_default();
+            (units_of(&table), is_line(&table))
+        };
+        let first = all.next().map_or((None, false), of);
+        let changes = |key: &str| question.keys.iter().any(|changed| changed.starts_with(key));
+        let alike = !changes("units") && !changes("grid.cells") || all.all(|other| of(other) == first);
+        Self { units: first.0.filter(|_| alike), is_line: first.1 }
     }
-    let numbers = answer.numbers.as_ref();
-    let end = at_end().map(|column| told(column, numbers.and_then(|numbers| numbers.end.as_ref())));
-    let cycle = of_cycle().map(|column| told(column, numbers.and_then(|numbers| numbers.cycle.as_ref())));
-    end.chain(cycle).collect()
+
+    fn heading(&self, column: &SummaryColumn) -> String {
+        Units::heading(self.units.as_ref(), &column.name, &column.kind, self.is_line)
+    }
 }
 
-/// Units that the text of a case declares. Of a line contact, whose grid is not known here, none are told.
-fn units_of(text: &str) -> Option<Units> {
-    let table = text.parse::<toml::Table>().ok()?;
+/// Units that a case declares.
+fn units_of(table: &toml::Table) -> Option<Units> {
     let units = table.get("units")?;
-    let cells = table.get("grid")?.get("cells")?.as_array()?;
-    let is_line = cells.get(1).and_then(toml::Value::as_integer) == Some(1);
-    (!is_line).then(|| Some(Units::new(units.get("length")?.as_str()?, units.get("force")?.as_str()?)))?
+    Some(Units::new(units.get("length")?.as_str()?, units.get("force")?.as_str()?))
+}
+
+/// Whether the contact of a case is a line contact: cells of one row, or told by one number.
+fn is_line(table: &toml::Table) -> bool {
+    match table.get("grid").and_then(|grid| grid.get("cells")) {
+        Some(toml::Value::Array(cells)) => cells.get(1).and_then(toml::Value::as_integer) == Some(1),
+        Some(cells) => cells.is_integer(),
+        None => false,
+    }
+}
+
+fn title_of(text: &str) -> Option<String> {
+    let table = text.parse::<toml::Table>().ok()?;
+    Some(table.get("title")?.as_str()?.to_owned()).filter(|title| !title.is_empty())
 }
 
 /// Names of files in a case: words under the keys that can name one.
@@ -265,20 +280,5 @@ fn quoted(text: &str) -> String {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {
         text.to_owned()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_summary_has_columns_of_the_tables() {
-        for name in END {
-            assert!(STEP_COLUMNS.iter().any(|column| column.name == name), "{name}");
-        }
-        for name in CYCLE {
-            assert!(CYCLE_COLUMNS.iter().any(|column| column.name == name), "{name}");
-        }
     }
 }

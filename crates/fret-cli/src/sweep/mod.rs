@@ -1,17 +1,20 @@
 //! Many cases: the written question of a sweep (`question`), what a key of an axis names (`key`), what a point came to
-//! (`answer`), the open ones planned, with what they have in common (`planned`), the folder that keeps it (`folder`); samples of uncertain
-//! keys (`drawn`) and what they say (`spread`).
+//! (`answer`) and its numbers by name (`columns`), the open ones planned, with what they have in common (`planned`), the folder that keeps
+//! it (`folder`, its `record`); samples of uncertain keys (`drawn`) and what they say (`spread`).
 
 mod answer;
+pub mod columns;
 mod drawn;
 mod folder;
 pub mod key;
 mod planned;
 mod question;
+mod record;
 mod spread;
 
-pub use answer::Answer;
-pub use folder::SweepFolder;
-pub use planned::Planned;
+pub use answer::{Answer, Besides, Path, direction, last_cycle};
+pub use folder::{Kept, POINTS, RECORD, SweepFolder, UNCERTAINTY};
+pub use planned::{Planned, asks_for_more};
 pub use question::{Point, Question};
+pub use record::SweepRecord;
 pub use spread::Spread;

@@ -10,6 +10,11 @@ use crate::interrupt;
 use crate::sweep::Point;
 use fret_results::Origin;
 
+/// Whether the case of a point asks for stresses, temperatures or resistances.
+pub fn asks_for_more(plan: &Plan) -> bool {
+    plan.case.stress.is_some() || !plan.case.conduction.is_none()
+}
+
 /// Points, planned once.
 pub struct Planned {
     /// What they have in common.
@@ -30,7 +35,8 @@ impl Planned {
                 .case_file
                 .planned_leaving_out(LeaveOut::ALL, origin.map(|origin| &origin.start))
                 .ok()?;
-            let beginnings = beginnings(&plan);
+            // The fields of a common beginning belong to none of the points, and stresses ask for those of the whole history.
+            let beginnings = if asks_for_more(&plan) { Vec::new() } else { beginnings(&plan) };
             let is_small = plan.case.profile.heights.is_empty() && !plan.case.friction.is_map();
             Some(((*number, beginnings), is_small.then_some((*number, plan))))
         };

@@ -12,7 +12,7 @@ const SWEEP: &str = r#"base = "case.toml"
 "#;
 
 /// The rows of a summary by the names of its columns; no cell of these tests holds a comma but the message, the last.
-fn column(summary: &str, name: &str) -> Vec<String> {
+pub fn column(summary: &str, name: &str) -> Vec<String> {
     let place = summary.lines().next().unwrap().split(',').position(|column| column == name).unwrap();
     let rows =
         summary.lines().skip(1).filter(|line| line.starts_with(|letter: char| letter.is_ascii_digit()));

@@ -301,7 +301,7 @@ impl Ground<'_> {
 }
 
 /// JSON that cannot end the element it stands in.
-fn json_in_page(value: &[Value]) -> String {
+pub fn json_in_page(value: &[Value]) -> String {
     serde_json::to_string(value).unwrap_or_default().replace('<', "\\u003c")
 }
 

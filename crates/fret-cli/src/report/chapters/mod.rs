@@ -15,6 +15,9 @@ mod stress;
 mod wear;
 mod zones;
 
+pub use explorer::json_in_page;
+pub use zones::cell as cell_of_pixel;
+
 use maud::{Markup, html};
 
 use super::literature;

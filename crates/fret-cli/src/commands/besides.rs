@@ -1,0 +1,56 @@
+//! What the case of a point of a sweep asks for besides its numbers: stresses, fatigue, crack, coating, heat. They are computed from a run
+//! as `fret run` leaves it, in a folder that is there as long as it takes.
+
+use std::fs;
+use std::path::Path;
+
+use fret_core::history::History;
+use fret_core::plan::Plan;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+use super::{heat, stress};
+use crate::embedded::{Solved, save};
+use crate::failure::{Failure, Unwritten};
+use crate::sweep::{Besides, Point};
+use fret_results::Wish;
+
+/// Computes what a solved point is asked for; `folder` is gone afterwards.
+///
+/// # Errors
+/// Why it cannot be had.
+pub fn besides(folder: &Path, point: &Point, plan: &Plan, history: &History) -> Result<Besides, Failure> {
+    removed(folder)?;
+    let answer = written(folder, point, plan, history).and_then(|()| {
+        // what is told of it shall not name a folder that is gone
+        let nameless = |failure| match failure {
+            Failure::Call(why, help) => {
+                let shown = format!("{}: ", folder.display());
+                Failure::Call(format!("not computed: {}", why.replace(&shown, "")), help)
+            }
+            other => other,
+        };
+        let stress =
+            stress::answered(folder).map_err(nameless)?.map(|answer| read(answer.record)).transpose()?;
+        let heat = heat::answered(folder).map_err(nameless)?.map(|(record, _)| read(record)).transpose()?;
+        Ok(Besides { stress, heat })
+    });
+    removed(folder)?;
+    answer
+}
+
+fn written(folder: &Path, point: &Point, plan: &Plan, history: &History) -> Result<(), Failure> {
+    let solved = Solved { plan, history, quantities: &[], early: None, error_bars: None };
+    save(solved, &point.case_file, folder, Wish::Start)
+}
+
+fn removed(folder: &Path) -> Result<(), Failure> {
+    if folder.exists() {
+        fs::remove_dir_all(folder).map_err(Unwritten::at(folder))?;
+    }
+    Ok(())
+}
+
+fn read<T: DeserializeOwned>(record: Value) -> Result<T, Failure> {
+    serde_json::from_value(record).map_err(|error| Failure::Defect(format!("a record of its own: {error}")))
+}

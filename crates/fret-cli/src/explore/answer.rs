@@ -1,0 +1,441 @@
+//! A case solved for the numbers of the sliders, and what is drawn and told of it: loop, section, zones, pressure; the stress below when
+//! it is asked for. Drawings are those of the report.
+
+use std::time::Instant;
+
+use fret_core::history::{History, KeptFields, StepRecord};
+use fret_core::plan::Plan;
+use fret_core::run::{InCommon, RunError, Simulation};
+use maud::{Markup, html};
+use ndarray::Array2;
+use rayon::ThreadPool;
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use super::question::{Question, Values, Written};
+use super::stress::stress_below;
+use crate::drawing::chart::{Chart, Curve, Stroke};
+use crate::drawing::map::Map;
+use crate::drawing::raster::{Raster, pixels_for};
+use crate::drawing::scale::Label;
+use crate::drawing::section::Section;
+use crate::failure::Failure;
+use crate::figures::unit_of;
+use crate::interrupt::Keeper;
+use crate::report::html::{number, percent};
+use crate::sweep::{Path, direction, last_cycle};
+
+/// Width of a map.
+const WIDTH: f64 = 400.0;
+/// Room around the contact in a map, over its width.
+const ROOM: f64 = 0.12;
+
+/// What the page asks.
+#[derive(Debug, Clone, Deserialize)]
+pub struct Asked {
+    /// Values of the sliders that were moved.
+    #[serde(default)]
+    pub values: Values,
+    /// Which increment of the loop is shown; without, that of the largest load.
+    #[serde(default)]
+    pub moment: Option<usize>,
+    /// Which case is to be written.
+    #[serde(default)]
+    pub written: Option<Written>,
+}
+
+/// A solution.
+struct Solved {
+    values: Values,
+    plan: Plan,
+    history: History,
+    seconds: f64,
+}
+
+/// Solves a case again and again; what stays the same from one time to the next is made once.
+pub struct Solver {
+    question: Question,
+    common: InCommon,
+    pool: ThreadPool,
+    last: Option<Solved>,
+}
+
+impl Solver {
+    /// Nothing solved yet.
+    pub fn new(question: Question, pool: ThreadPool) -> Self {
+        Self { question, common: InCommon::default(), pool, last: None }
+    }
+
+    /// The case with its sliders.
+    pub fn question(&self) -> &Question {
+        &self.question
+    }
+
+    /// Loop, section, zones, pressure and the numbers that matter.
+    ///
+    /// # Errors
+    /// When the case is refused or cannot be solved.
+    pub fn answer(&mut self, asked: &Asked) -> Result<Value, Failure> {
+        self.solve(&asked.values)?;
+        let Some(solved) = &self.last else { return Err(Failure::Defect("nothing is solved".to_owned())) };
+        let view = View::of(solved, asked.moment);
+        let drawn = Instant::now();
+        let figures = view.figures()?;
+        Ok(json!({
+            "status": "solved",
+            "figures": figures,
+            "numbers": view.numbers(),
+            "moment": view.moment,
+            "moments": view.path.points.len(),
+            "raw": view.raw(),
+            "solve_s": solved.seconds,
+            "draw_s": drawn.elapsed().as_secs_f64(),
+        }))
+    }
+
+    /// The stress below, and how far it is from yield.
+    ///
+    /// # Errors
+    /// As [`Self::answer`].
+    pub fn stress(&mut self, asked: &Asked) -> Result<Value, Failure> {
+        self.solve(&asked.values)?;
+        let Some(solved) = &self.last else { return Err(Failure::Defect("nothing is solved".to_owned())) };
+        let started = Instant::now();
+        let view = View::of(solved, asked.moment);
+        let (figure, numbers, raw) = self.pool.install(|| view.stress())?;
+        Ok(json!({
+            "status": "solved",
+            "figures": { "stress": figure },
+            "numbers": numbers,
+            "raw": raw,
+            "solve_s": started.elapsed().as_secs_f64(),
+        }))
+    }
+
+    /// The text of the case with the values, to be kept.
+    ///
+    /// # Errors
+    /// When the case with these values is refused.
+    pub fn text(&self, asked: &Asked) -> Result<String, Failure> {
+        self.question.text(&asked.values, asked.written.unwrap_or(Written::Own))
+    }
+
+    fn solve(&mut self, values: &Values) -> Result<(), Failure> {
+        if self.last.as_ref().is_some_and(|last| last.values == *values) {
+            return Ok(());
+        }
+        let started = Instant::now();
+        let (history, plan) = self.pool.install(|| {
+            let (_, plan) = self.question.shown(values)?;
+            let (history, outcome, _) = self.common.solve(0, Simulation::new(&plan), &mut Keeper);
+            match outcome {
+                Ok(()) => Ok((history, plan)),
+                Err(RunError::Interrupted { .. }) => Err(Failure::Interrupted(String::new())),
+                Err(error) => Err(Failure::Unsolved(error)),
+            }
+        })?;
+        let seconds = started.elapsed().as_secs_f64();
+        self.last = Some(Solved { values: values.clone(), plan, history, seconds });
+        Ok(())
+    }
+}
+
+/// A solution, seen in one increment of its last cycle.
+struct View<'a> {
+    plan: &'a Plan,
+    history: &'a History,
+    /// Increments of the path.
+    steps: &'a [StepRecord],
+    path: Path,
+    /// Whether anything moves sideways; else the path is that of pressing.
+    moves: bool,
+    /// Which of them is shown.
+    moment: usize,
+    is_line: bool,
+}
+
+impl<'a> View<'a> {
+    fn of(solved: &'a Solved, moment: Option<usize>) -> Self {
+        let (plan, history) = (&solved.plan, &solved.history);
+        let steps = &history.steps[last_cycle(history)];
+        let mut path = Path::through(steps);
+        let moves = path.points.iter().any(|point| point[1] != 0.0 || point[0] != path.points[0][0]);
+        if !moves {
+            path.points = steps.iter().map(|step| [step.approach, step.normal_force]).collect();
+        }
+        let load = |place: &usize| path.points[*place][1].abs();
+        // the first of equal ones
+        let largest = (0..steps.len()).rev().max_by(|a, b| load(a).total_cmp(&load(b))).unwrap_or(0);
+        let moment = moment.unwrap_or(largest).min(steps.len().saturating_sub(1));
+        Self { plan, history, steps, path, moves, moment, is_line: plan.grid.is_line() }
+    }
+
+    fn record(&self) -> Option<&'a StepRecord> {
+        self.steps.get(self.moment)
+    }
+
+    fn kept(&self) -> Option<&'a KeptFields> {
+        self.history.fields_of(self.record()?.increment)
+    }
+
+    fn unit(&self, kind: &str) -> Option<String> {
+        unit_of(self.plan.case.units.as_ref(), kind, self.is_line)
+    }
+
+    fn label(&self, name: &str, kind: &str) -> Label {
+        Label { name: name.to_owned(), unit: self.unit(kind) }
+    }
+
+    fn number(&self, value: f64, kind: &str) -> String {
+        let words = number(value);
+        self.unit(kind).map_or_else(|| words.clone(), |unit| format!("{words}\u{a0}{unit}"))
+    }
+
+    fn figures(&self) -> Result<Value, Failure> {
+        let mut figures = serde_json::Map::new();
+        let mut add = |name: &str, drawing: Markup| {
+            figures.insert(name.to_owned(), json!(drawing.into_string()));
+        };
+        add("loop", self.loop_chart().in_page());
+        let Some((kept, pressure)) = self.kept().and_then(|kept| Some((kept, kept.pressure.as_ref()?)))
+        else {
+            return Ok(figures.into());
+        };
+        add("section", self.section(kept, pressure));
+        let window = Window::of(self.history, pressure);
+        if let Some(zone) = kept.zone.as_ref().filter(|_| !self.plan.case.friction.is_frictionless()) {
+            let image = Raster::of_zones(window.size, |column, row| {
+                let [i, j] = window.cell(column, row);
+                f64::from(zone[[i, j]] as u8)
+            });
+            add("zones", html! { (self.map("stick and slip", &window, &image, None)?) (legend()) });
+        }
+        if !self.is_line {
+            let most = pressure.iter().copied().fold(0.0, f64::max);
+            let image = Raster::of_values(window.size, [0.0, most], |column, row| {
+                let value = pressure[window.cell(column, row)];
+                if value > 0.0 { value } else { f64::NAN }
+            });
+            add("pressure", self.map("pressure", &window, &image, Some(most))?);
+        }
+        Ok(figures.into())
+    }
+
+    fn loop_chart(&self) -> Chart {
+        let axes = match (self.moves, self.path.twists) {
+            (true, true) => [self.label("rotation", "rad"), self.label("torsional moment", "force x length")],
+            (true, false) => {
+                [self.label("relative displacement", "length"), self.label("tangential force", "force")]
+            }
+            (false, _) => [self.label("approach", "length"), self.label("normal force", "force")],
+        };
+        let curve = Curve { name: None, ..Curve::line(self.path.points.clone(), "", 0) };
+        let here = self.path.points.get(self.moment).map(|at| (*at, "here"));
+        Chart { here, ..Chart::new("the path of the load", axes, vec![curve]) }
+    }
+
+    /// Pressure, shear along the load and its bound, along x through the middle.
+    fn section(&self, kept: &KeptFields, pressure: &Array2<f64>) -> Markup {
+        let grid = &self.history.grid;
+        let row = grid.cells()[1] / 2;
+        let x = grid.centres(0).to_vec();
+        let line = |of: &dyn Fn(usize) -> f64| -> Vec<[f64; 2]> {
+            x.iter().enumerate().map(|(i, x)| [*x, of(i)]).collect()
+        };
+        let touches = |i: usize| pressure[[i, row]] > 0.0;
+        let (first, last) =
+            (0..x.len()).filter(|&i| touches(i)).fold((usize::MAX, 0), |(a, b), i| (a.min(i), b.max(i)));
+        let mut curves = vec![Curve::line(line(&|i| pressure[[i, row]]), "pressure", 0)];
+        if let Some([along, across]) = &kept.shear {
+            let [cosine, sine] = direction(self.steps);
+            if let Some(coefficient) = self.coefficient() {
+                curves.push(Curve::dashed(line(&|i| coefficient * pressure[[i, row]]), "friction bound", 2));
+            }
+            let shear = line(&|i| cosine * along[[i, row]] + sine * across[[i, row]]);
+            curves.push(Curve { stroke: Stroke::Line, ..Curve::line(shear, "shear", 1) });
+        }
+        let range = (first <= last).then(|| {
+            let room = ROOM * (x[last] - x[first]).max(grid.spacing()[0]);
+            [x[first] - room, x[last] + room]
+        });
+        if let Some([low, high]) = range {
+            for curve in &mut curves {
+                curve.points.retain(|[x, _]| (low..=high).contains(x));
+            }
+        }
+        let axes = [self.label("x", "length"), self.label("traction", "pressure")];
+        let chart = Chart {
+            ranges: [range, None],
+            ..Chart::new("pressure and shear along x through the middle", axes, curves)
+        };
+        chart.in_page()
+    }
+
+    /// The coefficient of friction in force, where it is one number and shear has no other bound.
+    fn coefficient(&self) -> Option<f64> {
+        let case = &self.plan.case;
+        if case.friction_evolution.is_some() {
+            return None;
+        }
+        let own = case.stages.get(self.record()?.stage)?.friction.as_ref();
+        let rule = own.unwrap_or(&case.friction);
+        if rule.max_shear().is_some() {
+            None
+        } else {
+            rule.coefficient().uniform().filter(|value| *value > 0.0)
+        }
+    }
+
+    fn map(&self, what: &str, window: &Window, image: &Raster, most: Option<f64>) -> Result<Markup, Failure> {
+        let y = if self.is_line { Label::plain("") } else { self.label("y", "length") };
+        let map = Map {
+            what: what.to_owned(),
+            width: WIDTH,
+            axes: [self.label("x", "length"), y],
+            x: window.edges[0],
+            y: window.edges[1],
+            downward: false,
+            image: image.address()?,
+            id: None,
+            bar: most.map(|most| (self.label("pressure", "pressure"), [0.0, most])),
+            levels: Vec::new(),
+        };
+        Ok(map.drawing()?.in_page())
+    }
+
+    /// The numbers that matter, in words.
+    fn numbers(&self) -> Vec<[String; 3]> {
+        let Some(record) = self.record() else { return Vec::new() };
+        let mut told = Vec::new();
+        let mut add =
+            |id: &str, name: &str, value: String| told.push([id.to_owned(), name.to_owned(), value]);
+        add("p0", "max pressure", self.number(record.max_pressure, "pressure"));
+        if self.is_line {
+            add("a", "contact half-width", self.number(0.5 * record.contact_area, "length"));
+        } else {
+            let radius = (record.contact_area / std::f64::consts::PI).sqrt();
+            add("a", "contact radius", self.number(radius, "length"));
+        }
+        add("approach", "approach", self.number(record.approach, "length"));
+        if self.plan.case.friction.is_frictionless() {
+            return told;
+        }
+        add("stick", "stick fraction", percent(record.stick_area / record.contact_area));
+        match self.history.cycles.last() {
+            Some(cycle) => {
+                add("energy", "energy W_d per cycle", self.number(cycle.dissipated_energy, "force x length"));
+                add(
+                    "condition",
+                    "running condition",
+                    spoken(cycle.regime.map_or(json!(null), |regime| json!(regime))),
+                );
+                let ratio = cycle.energy_ratio.map_or("–".to_owned(), number);
+                add("ratio", "energy ratio A", ratio);
+            }
+            None => {
+                add("energy", "dissipated energy", self.number(record.dissipated_energy, "force x length"));
+                add("condition", "condition", spoken(json!(record.regime)));
+            }
+        }
+        told
+    }
+
+    /// The same for programs: of the last increment and the last cycle.
+    fn raw(&self) -> Value {
+        let end = self.history.steps.last();
+        json!({
+            "normal_force": end.map(|end| end.normal_force),
+            "approach": end.map(|end| end.approach),
+            "max_pressure": end.map(|end| end.max_pressure),
+            "dissipated_energy": end.map(|end| end.dissipated_energy),
+            "cycle_dissipated_energy": self.history.cycles.last().map(|cycle| cycle.dissipated_energy),
+            "cells": self.plan.grid.cells(),
+        })
+    }
+
+    /// The section of the stress, the numbers that go with it, and these for programs.
+    fn stress(&self) -> Result<(String, Vec<[String; 3]>, Value), Failure> {
+        let Some(seen) = self.record().zip(self.kept()) else {
+            return Ok((String::new(), Vec::new(), json!(null)));
+        };
+        let Some(below) = stress_below(self.plan, self.history, seen)? else {
+            return Ok((String::new(), Vec::new(), json!(null)));
+        };
+        let (most, depth) = below.largest;
+        let section = Section {
+            title: "",
+            subject: "section at y = 0",
+            quantity: ("von Mises stress", "pressure"),
+            units: self.plan.case.units.as_ref(),
+            x: &self.history.grid.centres(0).to_vec(),
+            depths: &below.depths,
+            values: &below.values,
+            interfaces: &below.interfaces,
+            range: None,
+        };
+        let figure =
+            section.drawing(WIDTH)?.map_or_else(String::new, |drawing| drawing.in_page().into_string());
+        let mut told = vec![
+            ["mises".to_owned(), "max von Mises stress".to_owned(), self.number(most, "pressure")],
+            ["depth".to_owned(), format!("its depth, {} body", below.body), self.number(depth, "length")],
+        ];
+        if let Some(margin) = below.margin {
+            told.push(["margin".to_owned(), "yield margin".to_owned(), number(margin)]);
+        }
+        Ok((figure, told, json!({ "max_von_mises": most, "depth": depth, "yield_margin": below.margin })))
+    }
+}
+
+/// A word of a file for a person.
+fn spoken(word: Value) -> String {
+    word.as_str().map_or("–".to_owned(), |word| word.replace('_', " "))
+}
+
+fn legend() -> Markup {
+    html! {
+        ul class="legend" {
+            @for (class, name) in [("stick", "stick"), ("slip", "slip"), ("open", "no contact")] {
+                li { span class=(format!("swatch {class}")) {} (name) }
+            }
+        }
+    }
+}
+
+/// The part of the grid that maps show: the contact with some room around it.
+struct Window {
+    first: [usize; 2],
+    cells: [usize; 2],
+    size: [usize; 2],
+    edges: [[f64; 2]; 2],
+}
+
+impl Window {
+    fn of(history: &History, pressure: &Array2<f64>) -> Self {
+        let grid = &history.grid;
+        let all = grid.cells();
+        let (mut first, mut last) = (all, [0, 0]);
+        for ((i, j), _) in pressure.indexed_iter().filter(|(_, pressure)| **pressure > 0.0) {
+            (first[0], first[1]) = (first[0].min(i), first[1].min(j));
+            (last[0], last[1]) = (last[0].max(i), last[1].max(j));
+        }
+        for axis in 0..2 {
+            if first[axis] > last[axis] {
+                (first[axis], last[axis]) = (0, all[axis] - 1);
+            }
+            let room = (ROOM * (last[axis] + 1 - first[axis]) as f64).ceil() as usize;
+            first[axis] = first[axis].saturating_sub(room);
+            last[axis] = (last[axis] + room).min(all[axis] - 1);
+        }
+        let cells = [0, 1].map(|axis| last[axis] + 1 - first[axis]);
+        let edges = [0, 1].map(|axis| {
+            let half = 0.5 * grid.spacing()[axis];
+            [grid.centre(axis, first[axis]) - half, grid.centre(axis, last[axis]) + half]
+        });
+        Self { first, cells, size: cells.map(pixels_for), edges }
+    }
+
+    /// The cell that a pixel shows, rows from the top.
+    fn cell(&self, column: usize, row: usize) -> [usize; 2] {
+        crate::report::cell_of_pixel(self.first, self.cells, self.size, [column, row])
+    }
+}

@@ -1,0 +1,200 @@
+//! Who is answered: a browser on this machine that knows the address. A question that waits gives way to a newer one; the one at work is
+//! finished, so that something is seen however fast a slider moves.
+
+use std::io::Read;
+use std::net::{Ipv4Addr, SocketAddr};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Condvar, Mutex, PoisonError};
+use std::time::Duration;
+
+use serde_json::{Value, json};
+use tiny_http::{Header, Method, Request, Response};
+
+use super::answer::{Asked, Solver};
+use super::page;
+use crate::defect;
+use crate::failure::Failure;
+use crate::interrupt;
+
+/// Bytes of a question, at the most.
+const LONGEST: u64 = 64 * 1024;
+/// How long is waited for a question before looking whether somebody asks to stop.
+const WAIT: Duration = Duration::from_millis(150);
+/// What every answer says besides: it is nobody else's, and not to be kept.
+const HEADERS: [(&str, &str); 4] = [
+    ("Cache-Control", "no-store"),
+    ("Referrer-Policy", "no-referrer"),
+    ("X-Content-Type-Options", "nosniff"),
+    ("Cross-Origin-Resource-Policy", "same-origin"),
+];
+
+/// A place on this machine where a case can be played with.
+pub struct Server {
+    http: tiny_http::Server,
+    port: u16,
+    token: String,
+    inbox: Inbox,
+}
+
+/// A question for the solver.
+struct Posted {
+    request: Request,
+    asked: Asked,
+    what: What,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum What {
+    Solve,
+    Stress,
+    Case,
+}
+
+/// The newest question, and whether there will be others.
+#[derive(Default)]
+struct Inbox {
+    newest: Mutex<(Option<Posted>, bool)>,
+    changed: Condvar,
+}
+
+impl Inbox {
+    /// Puts a question in; gives back the one that has to give way. A case that is to be written waits for nothing and gives way to nothing.
+    fn put(&self, posted: Posted) -> Option<Posted> {
+        let older = self.newest.lock().unwrap_or_else(PoisonError::into_inner).0.replace(posted);
+        self.changed.notify_one();
+        older
+    }
+
+    fn end(&self) {
+        self.newest.lock().unwrap_or_else(PoisonError::into_inner).1 = true;
+        self.changed.notify_one();
+    }
+
+    /// Waits for the newest question; none at the end.
+    fn take(&self) -> Option<Posted> {
+        let mut newest = self.newest.lock().unwrap_or_else(PoisonError::into_inner);
+        loop {
+            if newest.1 {
+                return None;
+            }
+            match newest.0.take() {
+                Some(posted) => return Some(posted),
+                None => newest = self.changed.wait(newest).unwrap_or_else(PoisonError::into_inner),
+            }
+        }
+    }
+}
+
+impl Server {
+    /// Opens a port of this machine alone; 0: one that is free.
+    ///
+    /// # Errors
+    /// When the port cannot be had, or the system gives no random number.
+    pub fn open(port: u16) -> Result<Self, Failure> {
+        let refuse = |why: String| {
+            Failure::Call(format!("port {port}: {why}"), "another one with --port N".to_owned())
+        };
+        let address = SocketAddr::from((Ipv4Addr::LOCALHOST, port));
+        let http = tiny_http::Server::http(address).map_err(|error| refuse(error.to_string()))?;
+        let port = http.server_addr().to_ip().map_or(port, |address| address.port());
+        let random = || getrandom::u64().map_err(|error| refuse(format!("no random number: {error}")));
+        let token = format!("{:016x}{:016x}", random()?, random()?);
+        Ok(Self { http, port, token, inbox: Inbox::default() })
+    }
+
+    /// The address of the page.
+    pub fn address(&self) -> String {
+        format!("http://127.0.0.1:{}/{}/", self.port, self.token)
+    }
+
+    /// Answers until somebody asks to stop.
+    pub fn serve(&self, mut solver: Solver) {
+        let page = page::page(solver.question());
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                while let Some(posted) = self.inbox.take() {
+                    let answer = answer(&mut solver, &posted);
+                    send(posted.request, 200, "application/json", answer.to_string());
+                }
+            });
+            while !interrupt::is_asked() {
+                match self.http.recv_timeout(WAIT) {
+                    Ok(Some(request)) => self.hear(request, &page),
+                    Ok(None) => {}
+                    Err(_) => break,
+                }
+            }
+            self.inbox.end();
+        });
+    }
+
+    /// Answers a request that needs no solution, refuses what it does not know, and passes on the rest.
+    fn hear(&self, mut request: Request, page: &str) {
+        let header = |name: &'static str| {
+            let found = request.headers().iter().find(|header| header.field.equiv(name));
+            found.map(|header| header.value.as_str().to_owned())
+        };
+        // Another name of this machine is one that somebody else gave it, and another page may ask nothing.
+        let own = format!("127.0.0.1:{}", self.port);
+        let is_own = header("Host").is_some_and(|host| host == own);
+        let is_same = header("Origin").is_none_or(|origin| origin == format!("http://{own}"));
+        let place = request.url().strip_prefix('/').and_then(|rest| rest.split_once('/'));
+        let Some((_, place)) = place.filter(|(token, _)| is_own && is_same && same(token, &self.token))
+        else {
+            return send(request, 404, "text/plain", String::new());
+        };
+        let what = match (request.method(), place) {
+            (Method::Get, "") => return send(request, 200, "text/html; charset=utf-8", page.to_owned()),
+            (Method::Post, "solve") => What::Solve,
+            (Method::Post, "stress") => What::Stress,
+            (Method::Post, "case") => What::Case,
+            _ => return send(request, 404, "text/plain", String::new()),
+        };
+        let mut text = Vec::new();
+        let read = request.as_reader().take(LONGEST).read_to_end(&mut text);
+        let asked = read.ok().and_then(|_| serde_json::from_slice::<Asked>(&text).ok());
+        let Some(asked) = asked else {
+            return send(request, 400, "text/plain", "expected {\"values\": {KEY: NUMBER}}".to_owned());
+        };
+        if let Some(older) = self.inbox.put(Posted { request, asked, what }) {
+            let answer = json!({ "status": "superseded" });
+            send(older.request, 200, "application/json", answer.to_string());
+        }
+    }
+}
+
+/// Whether two tokens are the same, in a time that does not tell where they differ.
+fn same(one: &str, other: &str) -> bool {
+    let differ = one.bytes().zip(other.bytes()).fold(0, |differ, (one, other)| differ | (one ^ other));
+    one.len() == other.len() && differ == 0
+}
+
+fn answer(solver: &mut Solver, posted: &Posted) -> Value {
+    let asked = &posted.asked;
+    let ask = || match posted.what {
+        What::Solve => solver.answer(asked),
+        What::Stress => solver.stress(asked),
+        What::Case => solver.text(asked).map(|text| json!({ "status": "written", "text": text })),
+    };
+    // A mistake in the program is the answer to one question, not the end of the page.
+    let outcome = catch_unwind(AssertUnwindSafe(ask))
+        .unwrap_or_else(|panic| Err(Failure::Defect(defect::words_of(panic.as_ref()))));
+    outcome.unwrap_or_else(|failure| {
+        let record = failure.record();
+        let mistakes = record.mistakes.unwrap_or_default();
+        let why: Vec<String> = mistakes.into_iter().map(|mistake| mistake.message).collect();
+        let message = if why.is_empty() { record.message } else { why.join("; ") };
+        json!({ "status": record.status, "message": message })
+    })
+}
+
+fn send(request: Request, status: u16, kind: &str, text: String) {
+    let mut response = Response::from_string(text).with_status_code(status);
+    for (name, value) in HEADERS.into_iter().chain([("Content-Type", kind)]) {
+        if let Ok(header) = Header::from_bytes(name, value) {
+            response.add_header(header);
+        }
+    }
+    // A browser that has gone away is told nothing.
+    let _ = request.respond(response);
+}

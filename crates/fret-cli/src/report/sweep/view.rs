@@ -1,0 +1,268 @@
+//! A sweep seen as a whole, read back from its folder: its points, their answers and numbers, and which of its keys are axes.
+
+use std::fs;
+use std::path::Path;
+
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+use crate::commands::stress_kinds::stress_called;
+use crate::drawing::scale::Label;
+use crate::failure::Failure;
+use crate::figures::unit_of;
+use crate::report::html::{given, number};
+use crate::sweep::columns::{SummaryColumn, columns};
+use crate::sweep::{Answer, Kept, POINTS, RECORD, SweepRecord, UNCERTAINTY};
+
+/// Ends of keys that are known to have a unit.
+const KINDS: [(&str, &str); 16] = [
+    ("shift", "length"),
+    ("approach", "length"),
+    ("radius", "length"),
+    ("thickness", "length"),
+    ("size", "length"),
+    ("half_width", "length"),
+    ("critical_distance", "length"),
+    ("normal_force", "force"),
+    ("tangential_force", "force"),
+    ("twist_moment", "force x length"),
+    ("young", "pressure"),
+    ("max_shear", "pressure"),
+    ("bulk_stress", "pressure"),
+    ("upper_bulk_stress", "pressure"),
+    ("yield_strength", "pressure"),
+    ("residual_stress", "pressure"),
+];
+
+/// A sweep.
+pub struct View {
+    /// Its points and keys.
+    pub record: SweepRecord,
+    /// Name of the folder, for a sweep whose cases have no title.
+    folder: String,
+    /// What the points came to; nothing of those that are not finished.
+    pub answers: Vec<Option<Answer>>,
+    /// Numbers of the answers.
+    pub columns: Vec<SummaryColumn>,
+    /// What the samples say, where there are some.
+    pub uncertainty: Option<Value>,
+}
+
+impl View {
+    /// Reads a folder that `fret sweep` has written.
+    ///
+    /// # Errors
+    /// When a file that must be there cannot be read.
+    pub fn read(folder: &Path) -> Result<Self, Failure> {
+        let record: SweepRecord = read(&folder.join(RECORD))?;
+        let answer = |file: &String| {
+            let text = fs::read(folder.join(POINTS).join(file)).ok()?;
+            Some(serde_json::from_slice::<Kept>(&text).ok()?.answer)
+        };
+        let answers: Vec<Option<Answer>> = record.points.iter().map(|point| answer(&point.file)).collect();
+        let uncertainty = folder.join(UNCERTAINTY);
+        let uncertainty =
+            if uncertainty.exists() && !record.drawn.is_empty() { Some(read(&uncertainty)?) } else { None };
+        let name = folder.file_name().map_or_else(String::new, |name| name.display().to_string());
+        Ok(Self { columns: columns(&answers), folder: name, record, answers, uncertainty })
+    }
+
+    /// The title of the page.
+    pub fn title(&self) -> String {
+        match &self.record.title {
+            Some(title) => format!("Sweep: {title}"),
+            None => format!("Sweep {}", self.folder),
+        }
+    }
+
+    /// The column of a name.
+    pub fn column(&self, name: &str) -> Option<&SummaryColumn> {
+        self.columns.iter().find(|column| column.name == name)
+    }
+
+    /// Keys with more than one value, by their numbers; drawn ones are none of them.
+    pub fn axes(&self) -> Vec<usize> {
+        let kept = self.record.keys.len() - self.record.drawn.len();
+        (0..kept).filter(|&key| self.distinct(key).len() > 1).collect()
+    }
+
+    /// Values of a key, each once, in their order.
+    pub fn distinct(&self, key: usize) -> Vec<&Value> {
+        let mut found: Vec<&Value> = Vec::new();
+        for point in &self.record.points {
+            if !found.contains(&&point.values[key]) {
+                found.push(&point.values[key]);
+            }
+        }
+        found
+    }
+
+    /// Where a point stands along a key: its value, or, where the values are no numbers, which of them it is, from 1.
+    pub fn position(&self, key: usize, point: usize) -> f64 {
+        let value = |point: usize| self.record.points[point].values[key].as_f64();
+        if let (Some(value), true) = (value(point), self.is_numeric(key)) {
+            return value;
+        }
+        let own = &self.record.points[point].values[key];
+        1.0 + self.distinct(key).iter().position(|value| *value == own).unwrap_or(0) as f64
+    }
+
+    /// Whether all values of a key are numbers.
+    pub fn is_numeric(&self, key: usize) -> bool {
+        self.record.points.iter().all(|point| point.values[key].is_number())
+    }
+
+    /// The name of a key as an axis, with its unit where it is known.
+    pub fn key_label(&self, key: usize) -> Label {
+        let name = called(&self.record.keys[key]);
+        if !self.is_numeric(key) {
+            return Label::plain(&format!("{name}, which of its values"));
+        }
+        Label { name, unit: self.unit_of_key(&self.record.keys[key]) }
+    }
+
+    fn unit_of_key(&self, key: &str) -> Option<String> {
+        let end = words_of(key).last().copied()?;
+        let (_, kind) = KINDS.iter().find(|(known, _)| *known == end)?;
+        self.unit(kind)
+    }
+
+    /// The unit of a kind of quantity, where the cases declare units.
+    pub fn unit(&self, kind: &str) -> Option<String> {
+        unit_of(self.record.units.as_ref(), kind, self.record.is_line)
+    }
+
+    /// The name of a column as an axis.
+    pub fn label(&self, column: &SummaryColumn) -> Label {
+        // that it is of the last cycle says the caption
+        Label { name: spoken(&column.name).replace(OF_CYCLE, ""), unit: self.unit(&column.kind) }
+    }
+
+    /// A value of a key in words.
+    pub fn value(&self, key: usize, value: &Value) -> String {
+        let unit = self.unit_of_key(&self.record.keys[key]).filter(|_| value.is_number());
+        let words = value.as_f64().map_or_else(|| plain(value), given);
+        unit.map_or_else(|| words.clone(), |unit| format!("{words}\u{a0}{unit}"))
+    }
+
+    /// A value of a column in words.
+    pub fn number(&self, column: &SummaryColumn, point: usize) -> String {
+        match &column.values[point] {
+            Value::Null => "–".to_owned(),
+            Value::String(word) if word == "inf" => "unlimited".to_owned(),
+            Value::String(word) => word.replace('_', " "),
+            other => {
+                let words = other.as_f64().map_or_else(|| plain(other), number);
+                self.unit(&column.kind).map_or_else(|| words.clone(), |unit| format!("{words}\u{a0}{unit}"))
+            }
+        }
+    }
+
+    /// The values of a point along some keys, in words.
+    pub fn place(&self, keys: &[usize], point: usize) -> String {
+        let one = |&key: &usize| {
+            let value = &self.record.points[point].values[key];
+            format!("{} = {}", called(&self.record.keys[key]), self.value(key, value))
+        };
+        keys.iter().map(one).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The sliding condition of a point: of its last cycle, or at its end; `unsolved` of one without answer.
+    pub fn condition(&self, point: usize) -> &str {
+        let word = |name: &str| self.column(name).and_then(|column| column.values[point].as_str());
+        word("cycle_regime").filter(|word| !word.is_empty()).or_else(|| word("regime")).unwrap_or("unsolved")
+    }
+}
+
+/// A value that is no number, as it stands in a file.
+fn plain(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}
+
+/// Parts of a key that are no numbers of entries.
+fn words_of(key: &str) -> Vec<&str> {
+    key.split('.').filter(|part| part.parse::<usize>().is_err()).collect()
+}
+
+/// Words of keys that are called otherwise.
+const SPOKEN: [(&str, &str); 3] =
+    [("young", "Young's modulus"), ("poisson", "Poisson's ratio"), ("max_shear", "shear strength")];
+
+/// A key in words: `load.rub.tangential_force.0` is `tangential force, rub`.
+pub fn called(key: &str) -> String {
+    let words = words_of(key);
+    let Some((end, before)) = words.split_last() else { return key.to_owned() };
+    let spoken = SPOKEN.iter().find(|(word, _)| word == end).map_or(*end, |(_, words)| words);
+    let axis = if key.ends_with(".1") { " y" } else { "" };
+    let spoken = spoken.replace('_', " ") + axis;
+    let number = |list: &str| {
+        let rest = key.split_once(list)?.1.trim_start_matches('.');
+        rest.split('.').next()?.parse::<usize>().ok()
+    };
+    let place = |words: &[&str]| -> String {
+        let one = |word: &&str| match number(word) {
+            Some(place) if *word == "coatings" => format!("coating {}", place + 1),
+            _ => word.replace('_', " "),
+        };
+        words.iter().map(one).collect::<Vec<_>>().join(" ")
+    };
+    match before {
+        ["profile", shape] => format!("{spoken} of the {}", shape.replace('_', " ")),
+        ["friction" | "wear"] if before[0] != *end => format!("{} {spoken}", before[0]),
+        [] | ["load" | "grid"] => spoken,
+        ["load", rest @ ..] => format!("{spoken}, {}", place(rest)),
+        before => format!("{spoken}, {}", place(before)),
+    }
+}
+
+/// What is said of a number of a cycle.
+const OF_CYCLE: &str = " of the last cycle";
+
+/// Names that begin with that of a fatigue parameter, which is called after a person.
+const CALLED: [&str; 5] = ["smith_watson_topper", "fatemi_socie", "crossland", "dang_van", "von_mises"];
+
+/// A column in words: `cycle_dissipated_energy` is `dissipated energy of the last cycle`.
+pub fn spoken(name: &str) -> String {
+    for known in CALLED {
+        if let Some((before, after)) = name.split_once(known) {
+            return [before, &stress_called(known), after].concat().replace('_', " ");
+        }
+    }
+    match name.strip_prefix("cycle_") {
+        Some("energy_ratio") => "energy ratio A".to_owned(),
+        Some("sliding_ratio") => "sliding ratio D".to_owned(),
+        Some(rest) => rest.replace('_', " ") + OF_CYCLE,
+        None => name.replace('_', " "),
+    }
+}
+
+fn read<T: DeserializeOwned>(path: &Path) -> Result<T, Failure> {
+    let refuse = |why: String| {
+        let help = "run `fret sweep` again: finished points are not solved again".to_owned();
+        Failure::Call(format!("{}: {why}", path.display()), help)
+    };
+    let text = fs::read(path).map_err(|error| refuse(error.to_string()))?;
+    serde_json::from_slice(&text).map_err(|error| refuse(format!("cannot be read: {error}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{called, spoken};
+
+    #[test]
+    fn keys_and_columns_are_told_in_words() {
+        for (key, words) in [
+            ("friction.coefficient", "friction coefficient"),
+            ("load.rub.tangential_force.0", "tangential force, rub"),
+            ("load.0.normal_force", "normal force"),
+            ("lower.coatings.1.young", "Young's modulus, lower coating 2"),
+            ("load.rub.shift.1", "shift y, rub"),
+            ("profile.sphere.radius", "radius of the sphere"),
+            ("grid.cells", "cells"),
+        ] {
+            assert_eq!(called(key), words);
+        }
+        assert_eq!(spoken("cycle_dissipated_energy"), "dissipated energy of the last cycle");
+        assert_eq!(spoken("smith_watson_topper_cycles"), "Smith-Watson-Topper cycles");
+    }
+}
