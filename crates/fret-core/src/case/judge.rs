@@ -3,10 +3,12 @@
 use std::ops::Range;
 
 use super::attachments::Attachments;
-use super::mean_gap::WithoutMeanGap;
 use super::numbers::letters;
 use super::units::Units;
 use crate::document::{At, Mistake, Places};
+
+/// Why a case has no mean gap to prescribe, and what to prescribe instead.
+pub(super) type WithoutMeanGap = (&'static str, &'static str);
 
 /// Collects mistakes; `None` stands for a value that was refused.
 pub(super) struct Judge<'a> {

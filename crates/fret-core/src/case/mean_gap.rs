@@ -4,15 +4,12 @@ use std::ops::Range;
 
 use super::arrays::Cells;
 use super::file::CaseFile;
-use super::judge::Judge;
+use super::judge::{Judge, WithoutMeanGap};
 use crate::kernel::uniform_response;
 use crate::model::{ContactPair, Profile, SurfaceGrid};
 
 /// Its key, and its column in a table.
 pub(super) const MEAN_GAP: &str = "mean_gap";
-
-/// Why a case has no mean gap to prescribe, and what to prescribe instead.
-pub(super) type WithoutMeanGap = (&'static str, &'static str);
 
 const WITH_APPROACH: &str = "approach = ...";
 
