@@ -124,6 +124,7 @@ pub mod plan;
 #[path = "../../../tests/random.rs"]
 mod random;
 pub mod run;
+pub mod sensitivity;
 pub mod solver;
 pub mod study;
 pub mod subsurface;
