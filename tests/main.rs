@@ -49,6 +49,8 @@ mod rig;
 mod rough_cases;
 mod rough_surfaces;
 mod second_order;
+mod sensitivities;
+mod sensitivity_limits;
 mod severity;
 mod shear_strength;
 mod sliding;

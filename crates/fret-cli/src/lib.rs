@@ -76,6 +76,7 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         Verb::Man { out } => commands::shells::manual(out.as_deref(), as_json),
         Verb::Report { results, out } => commands::report::report(results, out.as_deref(), as_json),
         Verb::Export(arguments) => commands::export::export(arguments, as_json),
+        Verb::Sensitivity(arguments) => commands::sensitivity::sensitivity(arguments, as_json),
         Verb::Study(arguments) => commands::study::study(arguments, as_json),
         Verb::Stress(arguments) => commands::stress::stress(arguments, as_json),
         Verb::Heat(arguments) => commands::heat::heat(arguments, as_json),

@@ -193,9 +193,10 @@ impl Shape {
     /// One of the numbers that make the shape, called as in a case.
     pub fn number(&self, name: &str) -> Option<f64> {
         match (*self, name) {
-            (Self::Sphere { radius } | Self::Cylinder { radius, .. } | Self::FlatPunch { radius }, "radius") => {
-                Some(radius)
-            }
+            (
+                Self::Sphere { radius } | Self::Cylinder { radius, .. } | Self::FlatPunch { radius },
+                "radius",
+            ) => Some(radius),
             (Self::Ellipsoid { radius_x, .. }, "radius_x") => Some(radius_x),
             (Self::Ellipsoid { radius_y, .. }, "radius_y") => Some(radius_y),
             (Self::RoundedPunch { flat_radius, .. }, "flat_radius") => Some(flat_radius),

@@ -1,12 +1,13 @@
 //! From the solution of an increment's linear equations to all that it leaves behind, in dual numbers: what cells slipped, what friction
 //! dissipated, what is remembered. The formulas are those of the solver (`solver/state_after.rs`, `solver/energy.rs`, `solver/increment.rs`).
 
-use super::linearised::{Fields, MOTIONS};
+use super::cell::MOTIONS;
+use super::linearised::Fields;
 use super::loads::{Load, Reached};
 use super::scene::{Scene, Solved};
-use super::track::{Before, DualField, Drive, Known, Last, Track, at, bound_under, index, moved_by};
+use super::track::{Before, Drive, DualField, Known, Last, Track, at, bound_under, index, moved_by};
 use crate::fields::{Dual, Scalar, length_of};
-use crate::model::{Integration, Zone};
+use crate::model::Zone;
 use crate::solver::{dissipation, length_of_way, rate_since_touch, slip_until_open};
 
 /// Changes that solve the linear equations of an increment, in the region.
@@ -51,8 +52,10 @@ impl Track {
             Dual::new(*undeformed, drive.gap[[i, j]]) + displacement[0][cell] - deep
         });
         let gap = gap.collect::<Vec<_>>();
-        let gap = ndarray::Array2::from_shape_vec(scene.region.shape, gap).unwrap_or_else(|_| self.gap.clone());
-        let mut after = Self { pressure, shear, displacement, gap, zone: solved.zone.clone(), motions, ..self.clone() };
+        let gap =
+            ndarray::Array2::from_shape_vec(scene.region.shape, gap).unwrap_or_else(|_| self.gap.clone());
+        let mut after =
+            Self { pressure, shear, displacement, gap, zone: solved.zone.clone(), motions, ..self.clone() };
         let mut drift = self.drift(&after, scene);
         let sums = self.sums(&after, (scene, solved), (drive, &known, &drift));
         let area = scene.area();
@@ -106,10 +109,10 @@ impl Track {
             bound_under((&solved.law, scene.region.at(cell)), pressure, drive.friction)
         };
         let integration = scene.plan.case.integration;
-        for (number, cell) in solved.contact.cells().enumerate() {
+        for cell in solved.contact.cells() {
             let at_cell = index(scene, cell);
             let [before, now] = [self.zone[at_cell], solved.zone[at_cell]];
-            let slip = self.counted(cell, (known, number), (after, scene, drift));
+            let slip = self.counted(cell, known, (after, scene, drift));
             let shear = [at(&self.shear, cell), at(&after.shear, cell)];
             let way = length_of_way(integration, slip, [before, now], shear);
             let bounds = [bound(cell, self.pressure[cell]), bound(cell, after.pressure[cell])];
@@ -118,7 +121,8 @@ impl Track {
             let moved = after.displacement.each_ref().map(|part| part[cell]);
             sums.stored = sums.stored + after.pressure[cell] * moved[0] + x * moved[1] + y * moved[2];
         }
-        let motions: [Dual; MOTIONS] = std::array::from_fn(|motion| after.motions[motion] - self.motions[motion]);
+        let motions: [Dual; MOTIONS] =
+            std::array::from_fn(|motion| after.motions[motion] - self.motions[motion]);
         for cell in 0..scene.region.len() {
             let (was, is) = (self.pressure[cell], after.pressure[cell]);
             if was.value == 0.0 && is.value == 0.0 {
@@ -147,7 +151,7 @@ impl Track {
     fn counted(
         &self,
         cell: usize,
-        (known, _): (&Known, usize),
+        known: &Known,
         (after, scene, drift): (&Self, &Scene<'_>, &DualField),
     ) -> [Dual; 2] {
         let none = [Dual::of(0.0); 2];
@@ -171,18 +175,28 @@ impl Track {
             let [along, across] = scene.places[cell];
             (self.shear[1][cell] * along - self.shear[0][cell] * across) * scene.length
         });
-        let tilts = [0, 1].map(|axis| sum(&|cell| self.pressure[cell] * (scene.places[cell][axis] * scene.length)));
+        let tilts =
+            [0, 1].map(|axis| sum(&|cell| self.pressure[cell] * (scene.places[cell][axis] * scene.length)));
         let symmetry = scene.plan.symmetry;
         let mirrored = symmetry.axes();
         let none = Dual::of(0.0);
         // A force that the symmetry forbids is none.
-        let allowed = |axis: usize, force: Dual| if symmetry.shear_is_odd(axis) == [false; 2] { force } else { none };
+        let allowed =
+            |axis: usize, force: Dual| if symmetry.shear_is_odd(axis) == [false; 2] { force } else { none };
         let copies = symmetry.copies() as f64;
         let rig = scene.plan.case.springs();
         // What is known of the machine is that of the part.
-        let springs = [(rig.normal, drive.rig[0]), (rig.tangential[0], drive.rig[1]), (rig.tangential[1], drive.rig[2])];
+        let springs = [
+            (rig.normal, drive.rig[0]),
+            (rig.tangential[0], drive.rig[1]),
+            (rig.tangential[1], drive.rig[2]),
+        ];
         let springs = springs.map(|(compliance, change)| Dual::new(compliance, change / copies));
-        let reached = |force: Dual, motion: Dual, spring: Dual| Reached { force, motion, far_end: motion + spring * force };
+        let reached = |force: Dual, motion: Dual, spring: Dual| Reached {
+            force,
+            motion,
+            far_end: motion + spring * force,
+        };
         let [approach, tilt_x, tilt_y, shift_x, shift_y, twist] = self.motions;
         let [tilt_x, tilt_y, twist] = [tilt_x, tilt_y, twist].map(|motion| motion / scene.length);
         let tilts = [0, 1].map(|axis| if mirrored[axis] { none } else { tilts[axis] });
@@ -214,9 +228,4 @@ impl Track {
         });
         after.last_load = Some(load);
     }
-}
-
-/// Whether slip is followed along its path.
-pub(super) fn is_of_second_order(scene: &Scene<'_>) -> bool {
-    scene.is_frictional() && scene.plan.case.integration == Integration::SecondOrder
 }

@@ -5,9 +5,10 @@ use std::ops::ControlFlow;
 
 use super::after::Changes;
 use super::bodies::change_of_response;
+use super::cell::{MOTIONS, Prescribed};
 use super::error::SensitivityError;
 use super::krylov;
-use super::linearised::{Linearised, MOTIONS, Prescribed, displacements, zeros};
+use super::linearised::{Linearised, displacements, zeros};
 use super::loads::Load;
 use super::objective::{Objective, change_of, value_of};
 use super::parameter::Parameter;
@@ -19,7 +20,7 @@ use crate::fields::add_scaled;
 use crate::history::{CycleRecord, KeptFields, StepRecord};
 use crate::model::{CoulombFriction, MirroredState};
 use crate::plan::Plan;
-use crate::run::{Iteration, Observer, PairCompliance, Simulation};
+use crate::run::{Iteration, Observer, PairCompliance, RunError, Simulation};
 use fret_fft::ConvolutionError;
 
 /// Relative residual of the linear equations that is aimed at, and one that is good enough.
@@ -59,7 +60,11 @@ pub struct Sensitivities {
 ///
 /// # Errors
 /// When a number or a result is not one of the case, the case is of a kind that is not covered, the run fails, or linear equations are not solved.
-pub fn gradient(plan: &Plan, request: &Request, observer: &mut dyn Observer) -> Result<Sensitivities, SensitivityError> {
+pub fn gradient(
+    plan: &Plan,
+    request: &Request,
+    observer: &mut dyn Observer,
+) -> Result<Sensitivities, SensitivityError> {
     let parameters = if request.by.is_empty() {
         Parameter::all_of(&plan.case)
     } else {
@@ -69,7 +74,7 @@ pub fn gradient(plan: &Plan, request: &Request, observer: &mut dyn Observer) -> 
     check(plan)?;
     let mut run = Snapshots { steps: Vec::new(), cycles: Vec::new(), observer };
     Simulation::new(plan).run(&mut run)?;
-    let Snapshots { steps, cycles, .. } = run;
+    let Snapshots { steps, cycles, observer } = run;
     if let Some(step) = steps.iter().find(|step| step.record.parts > 1) {
         return Err(SensitivityError::Parts { increment: step.record.increment, parts: step.record.parts });
     }
@@ -83,17 +88,20 @@ pub fn gradient(plan: &Plan, request: &Request, observer: &mut dyn Observer) -> 
         .zip(&request.of)
         .map(|(objective, name)| objective.needs(name, (steps.len(), &cycles)))
         .collect::<Result<Vec<_>, _>>()?;
-    tangents(plan, &parameters, &steps, |scene, step, tracks| {
+    tangents(plan, &parameters, &steps, |step, tracks| {
         for ((gradient, objective), needs) in gradients.iter_mut().zip(&objectives).zip(&needs) {
             for (_, sign) in needs.iter().filter(|(needed, _)| *needed == Some(step.record.increment)) {
                 let column = objective.column();
                 gradient.value += sign * value_of(&step.record, column);
                 for ((by, track), parameter) in gradient.by.iter_mut().zip(tracks).zip(&parameters) {
                     let [friction, _] = parameter.change_of_friction(&plan.case, step.record.stage);
-                    *by += sign * change_of(track, scene, &step.record, (column, friction));
+                    *by += sign * change_of(track, (column, friction));
                 }
             }
         }
+        let StepRecord { increment, stage, .. } = step.record;
+        let tolerance = plan.case.tolerance;
+        observer.iterated(&Iteration { increment, stage, iteration: 0, residual: 0.0, tolerance })
     })?;
     Ok(Sensitivities { parameters, gradients })
 }
@@ -110,7 +118,12 @@ impl Observer for Snapshots<'_> {
         self.observer.iterated(iteration)
     }
 
-    fn solved(&mut self, record: &StepRecord, state: MirroredState<'_>, kept: Option<&KeptFields>) -> ControlFlow<()> {
+    fn solved(
+        &mut self,
+        record: &StepRecord,
+        state: MirroredState<'_>,
+        kept: Option<&KeptFields>,
+    ) -> ControlFlow<()> {
         self.steps.push(Snapshot { record: record.clone(), state: state.part.clone() });
         self.observer.solved(record, state, kept)
     }
@@ -142,7 +155,7 @@ fn tangents(
     plan: &Plan,
     parameters: &[Parameter],
     steps: &[Snapshot],
-    mut visit: impl FnMut(&Scene<'_>, &Snapshot, &[Track]),
+    mut visit: impl FnMut(&Snapshot, &[&Track]) -> ControlFlow<()>,
 ) -> Result<(), SensitivityError> {
     let operators_failed = |error: ConvolutionError| SensitivityError::Operators(error.to_string());
     let scene = Scene::new(plan, steps);
@@ -174,9 +187,7 @@ fn tangents(
             course.held = course.start.after((given, stage), of_stage, course.parameter);
         }
         let law = law_of(plan, stage);
-        let Some(first) = courses.first() else { return Ok(()) };
-        let load = first.held.of_part(&scene, before).step;
-        let solved = scene.solved(step, (load, law), &mut operators);
+        let solved = scene.solved(step, law, &mut operators);
         let mut knowns = Vec::with_capacity(courses.len());
         for course in &mut courses {
             let drive = drive(course, (&scene, &solved), before, stage);
@@ -184,16 +195,18 @@ fn tangents(
             knowns.push((!pauses).then(|| (course.track.known(&scene, &solved, &drive), drive)));
         }
         advance((&scene, &solved), &mut operators, &mut courses, knowns)?;
-        let tracks: Vec<Track> = courses.iter().map(|course| course.track.clone()).collect();
-        visit(&scene, step, &tracks);
+        let tracks: Vec<&Track> = courses.iter().map(|course| &course.track).collect();
+        if visit(step, &tracks).is_break() {
+            return Err(RunError::Interrupted { increment: number }.into());
+        }
     }
     Ok(())
 }
 
 /// The law of friction in force at a stage.
 fn law_of(plan: &Plan, stage: usize) -> &CoulombFriction {
-    let latest_first = plan.case.stages.iter().take(stage + 1).rev();
-    latest_first.filter_map(|stage| stage.friction.as_ref()).next().unwrap_or(&plan.case.friction)
+    let mut latest_first = plan.case.stages.iter().take(stage + 1).rev();
+    latest_first.find_map(|stage| stage.friction.as_ref()).unwrap_or(&plan.case.friction)
 }
 
 /// Derivative of the gap before deformation in the region; with heights it is counted from the cell that touches first.
@@ -227,7 +240,9 @@ fn drive(
     let case = &scene.plan.case;
     let copies = scene.plan.symmetry.copies() as f64;
     let by_response = match &mut course.response {
-        Some(change) if solved.contact.len() > 0 => displacements(change, scene.is_frictional(), &solved.tractions),
+        Some(change) if solved.contact.len() > 0 => {
+            displacements(change, scene.is_frictional(), &solved.tractions)
+        }
         _ => zeros(scene.region.len()),
     };
     Drive {
@@ -275,16 +290,15 @@ fn advance(
         for part in 0..3 {
             add_scaled(&mut moved[part], 1.0, &drive.by_response[part]);
         }
-        let mut asked = course.track.asked(scene, solved, &drive, &known);
+        let mut asked = known.asked((scene, solved), &drive);
         for (number, cell) in solved.contact.cells().enumerate() {
             let [normal, x, y] = [0, 1, 2].map(|part| moved[part][cell]);
             asked[0][number] -= normal;
-            match cells[number].row() {
-                Some(row) => asked[1][number] -= row[0] * x + row[1] * y,
-                None => {
-                    asked[1][number] -= x;
-                    asked[2][number] -= y;
-                }
+            if let Some(row) = cells[number].row() {
+                asked[1][number] -= row[0] * x + row[1] * y;
+            } else {
+                asked[1][number] -= x;
+                asked[2][number] -= y;
             }
         }
         let mut linear = Linearised::new(operators, (&solved.contact, &cells), kinds, region);
@@ -323,9 +337,10 @@ fn apart(
     drive: &Drive,
     prescribed: &[(Prescribed, f64); MOTIONS],
 ) -> Changes {
-    let lowest = scene.undeformed.indexed_iter().fold(([0, 0], f64::INFINITY), |(at, least), ((i, j), gap)| {
-        if *gap < least { ([i, j], *gap) } else { (at, least) }
-    });
+    let lowest =
+        scene.undeformed.indexed_iter().fold(([0, 0], f64::INFINITY), |(at, least), ((i, j), gap)| {
+            if *gap < least { ([i, j], *gap) } else { (at, least) }
+        });
     let motions = std::array::from_fn(|motion| match prescribed[motion] {
         (Prescribed::Motion | Prescribed::FarEnd(_), change) => change,
         (Prescribed::Resultant, _) if motion == 0 => drive.gap[lowest.0],

@@ -6,6 +6,7 @@
 
 mod after;
 mod bodies;
+mod cell;
 mod error;
 mod gradient;
 mod krylov;
@@ -15,8 +16,6 @@ mod objective;
 mod parameter;
 mod refusals;
 mod scene;
-#[cfg(test)]
-mod tests;
 mod track;
 
 pub use error::SensitivityError;

@@ -99,7 +99,8 @@ impl Parameter {
             for (row, way) in ways() {
                 for axis in row.freedoms().map(|freedom| freedom - row.freedom) {
                     let place = if row.form == Form::Number { String::new() } else { format!("[{axis}]") };
-                    if !stage.by_freedom()[row.freedom + axis].is_some_and(|control| control.path().is_zero()) {
+                    if !stage.by_freedom()[row.freedom + axis].is_some_and(|control| control.path().is_zero())
+                    {
                         paths.push(format!("load[{number}].{}{place}", way.name));
                     }
                 }
@@ -113,7 +114,13 @@ impl Parameter {
         for (name, body) in [("upper", case.bodies.upper()), ("lower", case.bodies.lower())] {
             let Body::Elastic(body) = body else { continue };
             for coating in 0..body.coatings().len() {
-                let numbers = ["young", "poisson", "thickness", "interface.normal_stiffness", "interface.shear_stiffness"];
+                let numbers = [
+                    "young",
+                    "poisson",
+                    "thickness",
+                    "interface.normal_stiffness",
+                    "interface.shear_stiffness",
+                ];
                 paths.extend(numbers.map(|number| format!("{name}.coatings[{coating}].{number}")));
             }
             paths.extend(["young", "poisson"].map(|number| format!("{name}.substrate.{number}")));
@@ -253,7 +260,9 @@ fn rig(case: &Case, (key, axis): Step<'_>) -> Found {
         return Err("the case has no such spring".to_owned());
     }
     if given.any(|other| other != first) {
-        return Err("the springs along x and y differ: tangential_stiffness[0], tangential_stiffness[1]".to_owned());
+        return Err(
+            "the springs along x and y differ: tangential_stiffness[0], tangential_stiffness[1]".to_owned()
+        );
     }
     Ok((What::Rig { normal, along }, 1.0 / first))
 }

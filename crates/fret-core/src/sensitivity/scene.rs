@@ -5,14 +5,18 @@ use std::borrow::Cow;
 
 use ndarray::Array2;
 
-use super::linearised::{Fields, MOTIONS, Operators, displacements, zeros};
+use super::cell::MOTIONS;
+use super::linearised::{Fields, Operators, displacements, zeros};
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceResponse};
 use crate::history::StepRecord;
 use crate::kernel::ResponseTable;
-use crate::model::{BEYOND_THE_BODY, ContactState, CoulombFriction, LoadStep, Rig, SurfaceGrid, Zone};
+use crate::model::{ContactState, CoulombFriction, Rig, SurfaceGrid, Zone};
 use crate::plan::{Coupling, Plan};
-use crate::solver::{CellWaves, ContactSet, Preconditioner, REACH_OF_EDGE, Region};
+use crate::solver::{CellWaves, ContactSet, Preconditioner, Region};
 use fret_fft::{ConvolutionError, good_length};
+
+/// Cells beyond all contacts of the history: to these the edge may come, and they see those beside them.
+const MARGIN: usize = 3;
 
 /// An increment as the run left it: its record, and the state in front of the mirrors.
 pub(super) struct Snapshot {
@@ -40,8 +44,6 @@ pub(super) struct Scene<'a> {
 /// One increment in the region.
 pub(super) struct Solved<'a> {
     pub record: &'a StepRecord,
-    /// What was prescribed, of the part in front of the mirrors.
-    pub load: LoadStep,
     pub law: Cow<'a, CoulombFriction>,
     pub tractions: Fields,
     pub displacements: Fields,
@@ -90,12 +92,6 @@ impl<'a> Scene<'a> {
         self.grid.cell_area() * self.plan.symmetry.copies() as f64
     }
 
-    /// A gap that no body has [length].
-    pub fn beyond_the_body(&self) -> f64 {
-        let [width, depth] = self.plan.grid.size();
-        0.5 * BEYOND_THE_BODY * width.hypot(depth)
-    }
-
     fn operator_set(&self) -> OperatorSet {
         OperatorSet {
             normal: true,
@@ -120,7 +116,6 @@ impl<'a> Scene<'a> {
             compliance: SpectralCompliance::new(response, shape, set)?,
             preconditioner: Preconditioner::new(response, waves, shape, set)?,
             frictional: self.is_frictional(),
-            shear_axis: self.plan.along,
         })
     }
 
@@ -133,7 +128,7 @@ impl<'a> Scene<'a> {
     pub fn solved<'b>(
         &self,
         snapshot: &'b Snapshot,
-        (load, law): (LoadStep, &'b CoulombFriction),
+        law: &'b CoulombFriction,
         operators: &mut Operators,
     ) -> Solved<'b> {
         let Snapshot { record, state } = snapshot;
@@ -148,7 +143,6 @@ impl<'a> Scene<'a> {
         let shape = region.shape;
         Solved {
             record,
-            load,
             law: self.plan.symmetry.part_of_friction(law),
             contact: ContactSet::loaded(&tractions[0]),
             tractions,
@@ -176,5 +170,5 @@ fn region_of(plan: &Plan, cells: [usize; 2], snapshots: &[Snapshot]) -> Region {
         return Region::whole(cells);
     }
     let touched = |i: usize, j: usize| snapshots.iter().any(|step| step.state.pressure[[i, j]] > 0.0);
-    Region::around(cells, plan.symmetry.axes(), REACH_OF_EDGE + 1, good_length, touched)
+    Region::around(cells, plan.symmetry.axes(), MARGIN, good_length, touched)
 }

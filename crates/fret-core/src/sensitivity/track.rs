@@ -3,7 +3,8 @@
 
 use ndarray::Array2;
 
-use super::linearised::{Cell, Fields, MOTIONS, Prescribed, Shear, zeros};
+use super::cell::{Cell, MOTIONS, Prescribed, Shear};
+use super::linearised::{Fields, zeros};
 use super::loads::{AllReached, Load, Reached};
 use super::scene::{Scene, Solved};
 use crate::fields::{Dual, Scalar, length};
@@ -106,7 +107,8 @@ impl Track {
             pressure: constants(cells),
             shear: field(),
             displacement: [constants(cells), constants(cells), constants(cells)],
-            gap: Array2::from_shape_vec(shape, gaps).unwrap_or_else(|_| Array2::from_elem(shape, Dual::of(0.0))),
+            gap: Array2::from_shape_vec(shape, gaps)
+                .unwrap_or_else(|_| Array2::from_elem(shape, Dual::of(0.0))),
             zone: Array2::from_elem(shape, Zone::Open),
             motions: [Dual::of(0.0); MOTIONS],
             energies: [Dual::of(0.0); 4],
@@ -126,7 +128,8 @@ impl Track {
     pub fn known(&self, scene: &Scene<'_>, solved: &Solved<'_>, drive: &Drive) -> Known {
         let last_load = self.last_load.as_ref().map(|last| self.of_part(last, &drive.load, scene));
         let end_point = solved.record.work.end_point_increments > 0;
-        let of_second_order = scene.is_frictional() && scene.plan.case.integration == Integration::SecondOrder;
+        let of_second_order =
+            scene.is_frictional() && scene.plan.case.integration == Integration::SecondOrder;
         let pace = self.before.as_ref().zip(last_load.as_ref()).filter(|_| of_second_order && !end_point);
         let pace = pace.and_then(|(before, last)| {
             pace_of([before.load.change_to(last)?, last.change_to(&drive.load)?], &drive.load.step)
@@ -174,7 +177,10 @@ impl Track {
             let shear = [solved.tractions[1][cell], solved.tractions[2][cell]];
             let place = scene.places[cell];
             let displaced = [1, 2].map(|part| {
-                Dual::new(self.displacement[part][cell].value - solved.displacements[part][cell], self.displacement[part][cell].change)
+                Dual::new(
+                    self.displacement[part][cell].value - solved.displacements[part][cell],
+                    self.displacement[part][cell].change,
+                )
             });
             let by_motions = moved_by(&moved, place);
             let drift = [0, 1].map(|axis| displaced[axis] + by_motions[axis]);
@@ -193,27 +199,13 @@ impl Track {
         }
     }
 
-    /// What displacements ask for in the cells of the contact, without a change of the solution; packed [length].
-    pub fn asked(&self, scene: &Scene<'_>, solved: &Solved<'_>, drive: &Drive, known: &Known) -> Fields {
-        let mut asked = zeros(known.cells.len());
-        for (number, cell) in solved.contact.cells().enumerate() {
-            asked[0][number] = -drive.gap[index(scene, cell)];
-            let chord = known.chords[number];
-            let Cell { shear, .. } = known.cells[number];
-            if let Shear::Turns { .. } = shear {
-                let across = known.cells[number].across();
-                let end = known.end_of(cell, chord);
-                asked[1][number] = across[0] * end[0].change + across[1] * end[1].change;
-            } else {
-                asked[1][number] = chord[0].change;
-                asked[2][number] = chord[1].change;
-            }
-        }
-        asked
-    }
-
     /// What is prescribed of the motions, and by which amount it changes.
-    pub fn prescribed(&self, scene: &Scene<'_>, solved: &Solved<'_>, drive: &Drive) -> [(Prescribed, f64); MOTIONS] {
+    pub fn prescribed(
+        &self,
+        scene: &Scene<'_>,
+        solved: &Solved<'_>,
+        drive: &Drive,
+    ) -> [(Prescribed, f64); MOTIONS] {
         let area = scene.grid.cell_area();
         let length = scene.length;
         let units = [1.0, length, length, 1.0, 1.0, length];
@@ -223,7 +215,7 @@ impl Track {
         let of_springs = [drive.rig[0], 0.0, 0.0, drive.rig[1], drive.rig[2], 0.0];
         std::array::from_fn(|motion| {
             let change = drive.load.change[freedoms[motion]];
-            let nothing_resists = motion >= 3 && (!scene.is_frictional() || self.is_across(scene, motion));
+            let nothing_resists = motion >= 3 && (!scene.is_frictional() || is_across(scene, motion));
             match controls[freedoms[motion]] {
                 Control::Force(_) if nothing_resists => (Prescribed::Motion, self.motions[motion].change),
                 Control::Force(_) => (Prescribed::Resultant, change / (area * units[motion])),
@@ -235,14 +227,33 @@ impl Track {
             }
         })
     }
+}
 
-    /// Whether a motion is that across the one axis along which shear acts.
-    fn is_across(&self, scene: &Scene<'_>, motion: usize) -> bool {
-        scene.plan.along.is_some_and(|axis| motion != 3 + axis)
-    }
+/// Whether a motion is that across the one axis along which shear acts.
+fn is_across(scene: &Scene<'_>, motion: usize) -> bool {
+    scene.plan.along.is_some_and(|axis| motion != 3 + axis)
 }
 
 impl Known {
+    /// What displacements ask for in the cells of the contact, without a change of the solution; packed [length].
+    pub fn asked(&self, (scene, solved): (&Scene<'_>, &Solved<'_>), drive: &Drive) -> Fields {
+        let mut asked = zeros(self.cells.len());
+        for (number, cell) in solved.contact.cells().enumerate() {
+            asked[0][number] = -drive.gap[index(scene, cell)];
+            let chord = self.chords[number];
+            let Cell { shear, .. } = self.cells[number];
+            if let Shear::Turns { .. } = shear {
+                let across = self.cells[number].across();
+                let end = self.end_of(cell, chord);
+                asked[1][number] = across[0] * end[0].change + across[1] * end[1].change;
+            } else {
+                asked[1][number] = chord[0].change;
+                asked[2][number] = chord[1].change;
+            }
+        }
+        asked
+    }
+
     /// Slip at the end of the increment in a cell of the contact, up to a factor, from the slip less the offset.
     pub fn end_of(&self, cell: usize, chord: [Dual; 2]) -> [Dual; 2] {
         match &self.paths {

@@ -53,7 +53,6 @@ use crate::model::{
     Beyond, BulkCompliance, ContactState, CoulombFriction, LoadStep, Rig, SurfaceGrid, Symmetry,
 };
 
-pub(crate) use contact_edge::{NEAR as REACH_OF_EDGE, contact_cells};
 pub(crate) use contact_set::ContactSet;
 pub(crate) use laws::friction::{
     FrictionLaw, bounds_on_grid as friction_bounds, dissipation, slip_until_open,

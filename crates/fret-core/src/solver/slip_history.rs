@@ -92,9 +92,9 @@ pub fn slip_path(
         shear: [0, 1].map(|axis| region.gather(&state.shear[axis])),
         gaps: before.and_then(|before| Some([before.gap.as_ref()?, &last.gap])),
     };
-    let was_inside =
-        |[i, j]: [usize; 2]| last.drift.region.is_some_and(|then| then.contains(i, j));
-    let wide = || before.map_or_else(|| TangentialField::zeros(region.len()), |before| beyond(before, &last.drift));
+    let was_inside = |[i, j]: [usize; 2]| last.drift.region.is_some_and(|then| then.contains(i, j));
+    let wide =
+        || before.map_or_else(|| TangentialField::zeros(region.len()), |before| beyond(before, &last.drift));
     let Paths { turn: [x, y], ahead: [ahead_x, ahead_y], touch } =
         recent.paths(pace, &state.zone, was_inside, || parts(wide()));
     let (turn, ahead) = (TangentialField { x, y }, TangentialField { x: ahead_x, y: ahead_y });
@@ -119,8 +119,7 @@ impl<R: Scalar + Send + Sync> Recent<'_, R> {
         let Self { region, zones, drift, then, .. } = self;
         let region = *region;
         let zeros = || vec![R::of(0.0); region.len()];
-        let mut paths =
-            Paths { turn: [zeros(), zeros()], ahead: [zeros(), zeros()], touch: zeros() };
+        let mut paths = Paths { turn: [zeros(), zeros()], ahead: [zeros(), zeros()], touch: zeros() };
         let at = |field: &[Vec<R>; 2], cell: usize| [field[0][cell], field[1][cell]];
         let set = |field: &mut [Vec<R>; 2], cell: usize, [x, y]: [R; 2]| {
             (field[0][cell], field[1][cell]) = (x, y);
@@ -142,8 +141,7 @@ impl<R: Scalar + Send + Sync> Recent<'_, R> {
             }
         }
         let held = |cell: usize| at(&self.shear, cell);
-        let largest_shear =
-            (0..region.len()).map(|cell| length_of(held(cell))).fold(R::of(0.0), larger);
+        let largest_shear = (0..region.len()).map(|cell| length_of(held(cell))).fold(R::of(0.0), larger);
         for cell in (0..region.len()).filter(|&cell| zones[cell] == Zone::Stick) {
             let shear = held(cell);
             let weight = (length_of(shear) / (largest_shear * KNOWN)).min(R::of(1.0));

@@ -149,7 +149,8 @@ fn products<R: Scalar>(older: [R; FREEDOMS], newer: [R; FREEDOMS], are_alike: bo
     let zero = R::of(0.0);
     let mut found = [zero; 3];
     for group in groups {
-        let product = |a: &[R], b: &[R]| group.clone().map(|k| a[k] * b[k]).fold(zero, |sum, part| sum + part);
+        let product =
+            |a: &[R], b: &[R]| group.clone().map(|k| a[k] * b[k]).fold(zero, |sum, part| sum + part);
         let [old, both, new] = [product(&older, &older), product(&older, &newer), product(&newer, &newer)];
         let unit = old.max(new);
         if unit.value() > 0.0 {
