@@ -6,6 +6,7 @@ use fret_core::history::{STEP_COLUMNS, StepRecord, Value};
 use fret_core::plan::Plan;
 use fret_core::run::{Silent, Simulation};
 use fret_core::sensitivity::{Request, Sensitivities, SensitivityError, gradient};
+use fret_validation::random::Random;
 
 /// A case with names in angle brackets for its numbers.
 struct Written<'a> {
@@ -235,6 +236,82 @@ fn moduli_and_forces_are_one_dimension() {
         println!("{} {off:.1e}", gradient.of);
         assert!(off < 1e-7, "{}: {sum} {} {off:.1e}", gradient.of, gradient.value);
     }
+}
+
+/// A random history: one or two layers on a substrate under an elastic or rigid body, forces and motions in two stages; with the paths of all
+/// its moduli and forces.
+fn random_history(random: &mut Random) -> (String, Vec<String>) {
+    let mut forces = vec!["load[0].normal_force".to_owned(), "lower.substrate.young".to_owned()];
+    let mut coatings = Vec::new();
+    for index in 0..random.whole(1, 2) {
+        let [young, poisson] = [random.log_uniform(0.3, 5.0), random.between(0.0, 0.45)];
+        coatings.push(format!(
+            "{{ thickness = {:e}, young = {young:e}, poisson = {poisson:e} }}",
+            random.log_uniform(0.1, 1.0)
+        ));
+        forces.push(format!("lower.coatings[{index}].young"));
+    }
+    let upper = if random.whole(0, 1) == 0 {
+        "rigid = true".to_owned()
+    } else {
+        forces.push("upper.substrate.young".to_owned());
+        format!("substrate = {{ young = {:e}, poisson = 0.25 }}", random.log_uniform(0.5, 5.0))
+    };
+    let friction = random.log_uniform(0.1, 0.6);
+    let normal = 0.05;
+    let [x, y] = [random.between(-0.5, 0.5), random.between(-0.5, 0.5)];
+    let rub = if random.whole(0, 1) == 0 {
+        forces.extend([0, 1].map(|axis| format!("load[1].tangential_force[{axis}]")));
+        format!("tangential_force = [{:e}, {:e}]", friction * normal * x, friction * normal * y)
+    } else {
+        format!("shift = [{:e}, {:e}]", 0.03 * friction * x, 0.03 * friction * y)
+    };
+    let text = format!(
+        "[grid]\ncells = [16, 16]\nsize = [2.4, 2.4]\n[upper]\n{upper}\n[lower]\ncoatings = [{}]\nsubstrate = {{ young = 1.0, \
+         poisson = 0.3 }}\n[profile.sphere]\nradius = 4.0\n[friction]\ncoefficient = {friction:e}\n[solver]\ntolerance = 1e-10\n\
+         [[load]]\nnormal_force = {normal:e}\nincrements = 3\n[[load]]\n{rub}\nincrements = {}\ncycles = 1\n",
+        coatings.join(", "),
+        4 * random.whole(1, 2)
+    );
+    (text, forces)
+}
+
+/// Euler's identity of pressures, energies and lengths in so many random histories.
+fn dimensions_of_random_histories(seed: u64, count: usize) {
+    let mut random = Random::seeded(seed);
+    let columns = [("max_pressure", 1.0), ("approach", 0.0), ("max_shear", 1.0), ("dissipated_energy", 1.0)];
+    let mut solved = 0;
+    for case in 0..count {
+        let (text, forces) = random_history(&mut random);
+        let names: Vec<&str> = forces.iter().map(String::as_str).collect();
+        let found = match found(&planned(&text), &columns.map(|(column, _)| column), &names) {
+            Ok(found) => found,
+            Err(SensitivityError::Parts { .. }) => continue,
+            Err(error) => panic!("case {case}: {error}\n{text}"),
+        };
+        solved += 1;
+        let scale = found.gradients[3].value;
+        for (gradient, (column, power)) in found.gradients.iter().zip(columns) {
+            let parts = gradient.by.iter().zip(&found.parameters);
+            let sum: f64 = parts.map(|(by, parameter)| by * parameter.value()).sum();
+            // Energies so small that the run itself leaves no digits of them say nothing.
+            let size = gradient.value.abs().max(if column == "dissipated_energy" { 1e-9 } else { 0.0 });
+            let off = (sum - power * gradient.value).abs() / size;
+            assert!(off < 1e-6, "case {case}, {column}: {sum} {} ({scale})\n{text}", gradient.value);
+        }
+    }
+    assert!(solved * 10 > count * 9, "{solved} of {count}");
+}
+
+#[test]
+fn moduli_and_forces_are_one_dimension_in_random_histories() {
+    dimensions_of_random_histories(41, 25);
+}
+
+#[test]
+#[ignore = "long: five hundred random histories"]
+fn moduli_and_forces_are_one_dimension_in_five_hundred_histories() {
+    dimensions_of_random_histories(42, 500);
 }
 
 /// Torsion beside a force, a body that tilts under a moment, a machine that gives, a shear strength, a stage with friction of its own, a

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use fret_core::plan::Plan;
-use fret_core::sensitivity::{Gradient, Request, Sensitivities, SensitivityError, gradient};
+use fret_core::sensitivity::{Gradient, NearEvents, Request, Sensitivities, SensitivityError, gradient};
 use serde_json::{Map, Value, json};
 
 use crate::arguments::SensitivityArguments;
@@ -73,7 +73,10 @@ fn record(found: &Sensitivities) -> Value {
     };
     let gradients: Map<String, Value> =
         found.gradients.iter().map(|gradient| (gradient.of.clone(), of(gradient))).collect();
-    json!({ "status": "computed", "parameters": parameters, "of": gradients })
+    let near = found.near_events.map(
+        |near| json!({ "increment": near.increment, "cells": near.cells, "contact_cells": near.contact }),
+    );
+    json!({ "status": "computed", "parameters": parameters, "of": gradients, "near_a_change_of_state": near })
 }
 
 /// The answer for a person: one table a result, its parameters by the size of their effect.
@@ -104,6 +107,13 @@ fn table(found: &Sensitivities) -> String {
         text.push('\n');
     }
     text.push_str("d ln / d ln: by how many per cent the result changes when the number changes by one; on the grid of the case");
+    if let Some(NearEvents { increment, cells, contact }) = found.near_events {
+        let _ = write!(
+            text,
+            "\nincrement {increment}: {cells} of {contact} cells are within a millionth of another state (open, stick, slip): derivatives on \
+             either side of the case differ there"
+        );
+    }
     text
 }
 

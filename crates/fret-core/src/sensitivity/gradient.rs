@@ -7,6 +7,7 @@ use super::after::Changes;
 use super::bodies::change_of_response;
 use super::cell::{MOTIONS, Prescribed};
 use super::error::SensitivityError;
+use super::events::{NearEvents, near_events};
 use super::krylov;
 use super::linearised::{Linearised, displacements, zeros};
 use super::loads::Load;
@@ -15,7 +16,7 @@ use super::parameter::Parameter;
 use super::refusals::check;
 use super::scene::{Scene, Snapshot, Solved, field};
 use super::track::{Drive, Known, Track};
-use crate::compliance::SpectralCompliance;
+use crate::compliance::{SpectralCompliance, SurfaceCompliance};
 use crate::fields::add_scaled;
 use crate::history::{CycleRecord, KeptFields, StepRecord};
 use crate::model::{CoulombFriction, MirroredState};
@@ -54,6 +55,8 @@ pub struct Sensitivities {
     pub parameters: Vec<Parameter>,
     /// Of what.
     pub gradients: Vec<Gradient>,
+    /// Where most cells are about to change their state, so that derivatives on either side differ; `None`: nowhere any.
+    pub near_events: Option<NearEvents>,
 }
 
 /// Derivatives of the history of a plan, on the plan's grid.
@@ -88,7 +91,7 @@ pub fn gradient(
         .zip(&request.of)
         .map(|(objective, name)| objective.needs(name, (steps.len(), &cycles)))
         .collect::<Result<Vec<_>, _>>()?;
-    tangents(plan, &parameters, &steps, |step, tracks| {
+    let near_events = tangents(plan, &parameters, &steps, |step, tracks| {
         for ((gradient, objective), needs) in gradients.iter_mut().zip(&objectives).zip(&needs) {
             for (_, sign) in needs.iter().filter(|(needed, _)| *needed == Some(step.record.increment)) {
                 let column = objective.column();
@@ -103,7 +106,7 @@ pub fn gradient(
         let tolerance = plan.case.tolerance;
         observer.iterated(&Iteration { increment, stage, iteration: 0, residual: 0.0, tolerance })
     })?;
-    Ok(Sensitivities { parameters, gradients })
+    Ok(Sensitivities { parameters, gradients, near_events })
 }
 
 /// Takes the increments of a run for later.
@@ -150,13 +153,14 @@ struct Course<'a> {
     response: Option<SpectralCompliance>,
 }
 
-/// Goes through a history that was solved, and shows its derivatives after every increment.
+/// Goes through a history that was solved, and shows its derivatives after every increment. Tells where most cells are about to change their
+/// state.
 fn tangents(
     plan: &Plan,
     parameters: &[Parameter],
     steps: &[Snapshot],
     mut visit: impl FnMut(&Snapshot, &[&Track]) -> ControlFlow<()>,
-) -> Result<(), SensitivityError> {
+) -> Result<Option<NearEvents>, SensitivityError> {
     let operators_failed = |error: ConvolutionError| SensitivityError::Operators(error.to_string());
     let scene = Scene::new(plan, steps);
     let compliance = PairCompliance::of(plan);
@@ -174,6 +178,7 @@ fn tangents(
         courses.push(Course { parameter, track, held: Load::FREE, start: Load::FREE, gap, response });
     }
     let untouched = crate::model::ContactState::untouched(scene.grid.cells());
+    let mut most: Option<NearEvents> = None;
     let (mut stage, mut of_stage) = (usize::MAX, 0);
     for (number, step) in steps.iter().enumerate() {
         let before = if number == 0 { &untouched } else { &steps[number - 1].state };
@@ -194,13 +199,17 @@ fn tangents(
             let pauses = course.track.pauses(&drive.load);
             knowns.push((!pauses).then(|| (course.track.known(&scene, &solved, &drive), drive)));
         }
-        advance((&scene, &solved), &mut operators, &mut courses, knowns)?;
+        if let Some(near) = advance((&scene, &solved), &mut operators, &mut courses, knowns)?
+            && near.cells > most.map_or(0, |most| most.cells)
+        {
+            most = Some(near);
+        }
         let tracks: Vec<&Track> = courses.iter().map(|course| &course.track).collect();
         if visit(step, &tracks).is_break() {
             return Err(RunError::Interrupted { increment: number }.into());
         }
     }
-    Ok(())
+    Ok(most)
 }
 
 /// The law of friction in force at a stage.
@@ -260,17 +269,19 @@ fn advance(
     operators: &mut super::linearised::Operators,
     courses: &mut [Course<'_>],
     knowns: Vec<Option<(Known, Drive)>>,
-) -> Result<(), SensitivityError> {
+) -> Result<Option<NearEvents>, SensitivityError> {
     let Some((first, first_drive)) = knowns.iter().flatten().next() else {
         for course in courses {
             course.track.zone.clone_from(&solved.zone);
         }
-        return Ok(());
+        return Ok(None);
     };
     let cells = first.cells.clone();
     let asked_of = |track: &Track, drive: &Drive| track.prescribed(scene, solved, drive);
     let kinds = asked_of(&courses[0].track, first_drive).map(|(kind, _)| kind);
     let region = scene.region.len();
+    let own = operators.compliance.self_influence();
+    let mut near = None;
     for (course, known) in courses.iter_mut().zip(knowns) {
         let Some((known, drive)) = known else { continue };
         let prescribed = asked_of(&course.track, &drive);
@@ -325,9 +336,12 @@ fn advance(
             add_scaled(&mut changes[part], 1.0, &drive.by_response[part]);
         }
         let changes = Changes { tractions, displacements: changes, motions };
+        if near.is_none() {
+            near = Some(near_events((scene, solved), &known, [own.normal, own.tangential]));
+        }
         course.track.finish((scene, solved), (&drive, known), &changes);
     }
-    Ok(())
+    Ok(near)
 }
 
 /// Changes of bodies that do not touch: motions that are prescribed, and an approach to the first touch where a force is.

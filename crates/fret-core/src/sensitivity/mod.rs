@@ -8,6 +8,7 @@ mod after;
 mod bodies;
 mod cell;
 mod error;
+mod events;
 mod gradient;
 mod krylov;
 mod linearised;
@@ -19,6 +20,7 @@ mod scene;
 mod track;
 
 pub use error::SensitivityError;
+pub use events::NearEvents;
 pub use gradient::{Gradient, Request, Sensitivities, gradient};
 pub use objective::COLUMNS;
 pub use parameter::Parameter;

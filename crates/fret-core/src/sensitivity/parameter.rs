@@ -67,6 +67,7 @@ impl Parameter {
     pub fn new(path: &str, case: &Case) -> Result<Self, SensitivityError> {
         let refused = |reason: String| SensitivityError::Parameter { path: path.to_owned(), reason };
         let steps = steps(path).ok_or_else(|| refused(FORMS.to_owned()))?;
+        let steps = with_numbers_of_stages(&steps, case);
         let found = match steps[..] {
             [("friction", None)] | [("friction", None), ("coefficient", None)] => {
                 coefficient(&case.friction).map(|value| (What::Friction { stage: None }, value))
@@ -192,14 +193,31 @@ const FORMS: &str = "no such number; paths are those of the case, such as fricti
                      lower.substrate.poisson, profile.sphere.radius, load[0].normal_force, load[1].tangential_force[0]";
 const ONE_NUMBER: &str = "a map: derivatives are taken by one number, which this is not";
 
-/// The parts of a path.
+/// The parts of a path: keys with their numbers, in brackets or as parts of their own, as sweeps have them (`lower.coatings.0.young`).
 fn steps(path: &str) -> Option<Vec<Step<'_>>> {
-    path.split('.')
-        .map(|part| match part.split_once('[') {
-            None => (!part.is_empty()).then_some((part, None)),
-            Some((key, index)) => Some((key, Some(index.strip_suffix(']')?.parse().ok()?))),
-        })
-        .collect()
+    let mut steps: Vec<Step<'_>> = Vec::new();
+    for part in path.split('.') {
+        let (key, index) = match part.split_once('[') {
+            None => (part, None),
+            Some((key, index)) => (key, Some(index.strip_suffix(']')?.parse().ok()?)),
+        };
+        match (key.parse(), steps.last_mut()) {
+            (Ok(number), Some((_, last @ None))) if index.is_none() => *last = Some(number),
+            _ if key.is_empty() => return None,
+            _ => steps.push((key, index)),
+        }
+    }
+    Some(steps)
+}
+
+/// The same with the names of stages, which sweeps have, as their numbers.
+fn with_numbers_of_stages<'a>(steps: &[Step<'a>], case: &Case) -> Vec<Step<'a>> {
+    if let [("load", None), (name, None), rest @ ..] = steps
+        && let Some(stage) = case.stages.iter().position(|stage| stage.name == *name)
+    {
+        return [&[("load", Some(stage))], rest].concat();
+    }
+    steps.to_vec()
 }
 
 /// A number of a case with its value, or what is wrong with a path.
@@ -329,4 +347,47 @@ fn whole_coating(body: &HalfSpace, index: usize) -> Result<&Coating, String> {
         return Err("a body with a graded coating: derivatives by its layers are not taken".to_owned());
     }
     body.coatings().get(index).ok_or_else(|| format!("this body has {} coatings", body.coatings().len()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Both ways to write a path, and names of stages.
+    #[test]
+    fn paths_are_those_of_cases_and_of_sweeps() {
+        let text = "[grid]\ncells = [8, 8]\nsize = [1.0, 1.0]\n[upper]\nrigid = true\n[lower]\ncoatings = [{ thickness = 0.1, young = 3.0, \
+                    poisson = 0.2 }]\nsubstrate = { young = 1.0, poisson = 0.3 }\n[profile.sphere]\nradius = 2.0\n[friction]\n\
+                    coefficient = 0.3\n[[load]]\nnormal_force = 0.1\nincrements = 1\n[[load]]\nname = \"rub\"\n\
+                    tangential_force = [0.01, 0.0]\nincrements = 2\n";
+        let case = Case::from_toml(text, "case.toml").unwrap();
+        let of = |path: &str| Parameter::new(path, &case).unwrap();
+        for (one, other, value) in [
+            ("lower.coatings[0].young", "lower.coatings.0.young", 3.0),
+            ("load[1].tangential_force[0]", "load.rub.tangential_force.0", 0.01),
+            ("load[0].normal_force", "load.0.normal_force", 0.1),
+            ("friction", "friction.coefficient", 0.3),
+        ] {
+            assert_eq!((of(one).what, of(one).value()), (of(other).what, value), "{one}");
+        }
+        let all = Parameter::all_of(&case);
+        let paths: Vec<&str> = all.iter().map(Parameter::path).collect();
+        assert_eq!(
+            paths,
+            [
+                "friction.coefficient",
+                "load[0].normal_force",
+                "load[1].tangential_force[0]",
+                "profile.sphere.radius",
+                "lower.coatings[0].young",
+                "lower.coatings[0].poisson",
+                "lower.coatings[0].thickness",
+                "lower.substrate.young",
+                "lower.substrate.poisson",
+            ]
+        );
+        for wrong in ["lower..young", "[0]", "load.rubb.friction", "lower.coatings[0]", "upper.0"] {
+            assert!(Parameter::new(wrong, &case).is_err(), "{wrong}");
+        }
+    }
 }
