@@ -51,6 +51,8 @@ mod rolling;
 mod rough_cases;
 mod rough_surfaces;
 mod second_order;
+mod sensitivities;
+mod sensitivity_limits;
 mod severity;
 mod shear_strength;
 mod sliding;

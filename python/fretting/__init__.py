@@ -21,6 +21,7 @@ from fretting import analytic, plot
 from fretting._core import __version__
 from fretting._points import Parameter
 from fretting.case_types import Case
+from fretting.differentiating import gradient
 from fretting.errors import (
     CaseError,
     FrettingError,
@@ -67,6 +68,7 @@ __all__ = [
     "__version__",
     "analytic",
     "frequency_response",
+    "gradient",
     "identify",
     "influence_coefficients",
     "open_results",

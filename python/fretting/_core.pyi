@@ -161,6 +161,12 @@ def run_into(
     threads: int | None,
     on_step: Callable[[dict[str, Any], int, int], object] | None,
 ) -> BaseException | None: ...
+def gradient(
+    case: Case,
+    of: list[str],
+    by: list[str],
+    threads: int | None,
+) -> list[tuple[str, float, dict[str, float]]]: ...
 def identify(
     log: tuple[str, bytes],
     case: Case,

@@ -84,6 +84,8 @@ pub enum Verb {
     Export(ExportArguments),
     /// Refinement study: errors, orders of convergence and times over grids and increments, and which to choose
     Study(StudyArguments),
+    /// Exact derivatives of the results by the numbers of the case: what they depend on, and how much
+    Sensitivity(SensitivityArguments),
     /// Moved to `cargo xtask extremes`
     #[command(hide = true)]
     Extremes {
@@ -101,6 +103,23 @@ pub enum Verb {
     Heat(HeatArguments),
     /// Parameter sweep: solve a base case for lists of values of its keys, or for samples of uncertain ones
     Sweep(SweepArguments),
+}
+
+/// Of what derivatives are taken, and by what.
+#[derive(Debug, Args)]
+pub struct SensitivityArguments {
+    /// The case file (TOML); - reads it from standard input
+    pub case: PathBuf,
+    /// A result: a column of the last increment (`max_pressure`), of another (`increments[7].shift_x`), or the energy of a cycle
+    /// (`cycles[0].dissipated_energy`); once for each [default: `max_pressure`, `approach`, and with friction `max_shear`, `dissipated_energy`]
+    #[arg(long, value_name = "RESULT")]
+    pub of: Vec<String>,
+    /// A number of the case by its path (`friction.coefficient`, `lower.coatings[0].young`); once for each [default: all there are]
+    #[arg(long, value_name = "PATH")]
+    pub by: Vec<String>,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = threads::number)]
+    pub threads: Option<u16>,
 }
 
 /// How to solve a case.

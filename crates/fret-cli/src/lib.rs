@@ -78,6 +78,7 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         Verb::Report { results, out } => commands::report::report(results, out.as_deref(), as_json),
         Verb::Explore(arguments) => commands::explore::explore(arguments, as_json),
         Verb::Export(arguments) => commands::export::export(arguments, as_json),
+        Verb::Sensitivity(arguments) => commands::sensitivity::sensitivity(arguments, as_json),
         Verb::Study(arguments) => commands::study::study(arguments, as_json),
         Verb::Stress(arguments) => commands::stress::stress(arguments, as_json),
         Verb::CompareScar(arguments) => commands::compare_scar::compare_scar(arguments, as_json),

@@ -126,6 +126,7 @@ pub mod plan;
 mod random;
 pub mod run;
 pub mod scar;
+pub mod sensitivity;
 pub mod solver;
 pub mod study;
 pub mod subsurface;

@@ -10,6 +10,7 @@ mod command;
 mod conduction;
 mod error;
 mod fatigue;
+mod gradient;
 mod history;
 mod identify;
 mod in_common;
@@ -45,6 +46,8 @@ mod _core {
     use crate::conduction::{contact_resistance, surface_temperature};
     #[pymodule_export]
     use crate::fatigue::{coating_fracture, crack, fatigue};
+    #[pymodule_export]
+    use crate::gradient::gradient;
     #[pymodule_export]
     use crate::history::{History, vocabulary};
     #[pymodule_export]

@@ -20,6 +20,7 @@ pub mod report;
 pub mod run;
 pub mod run_observer;
 pub mod schema;
+pub mod sensitivity;
 pub mod shells;
 pub mod stress;
 pub mod stress_kinds;

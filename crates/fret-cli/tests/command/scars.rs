@@ -31,7 +31,8 @@ fn a_measured_line_is_levelled_and_laid_over_the_computed_scar() {
     assert_eq!(record, serde_json::from_str::<Value>(&bench.text("out/scar/scar.json")).unwrap());
     let measured = |name: &str| record["numbers"][name]["measured"].as_f64().unwrap();
     // cells of 1/64 of the width: their means are off by a thousandth of the depth at most
-    for (name, right) in [("depth", 4e-3), ("width", 0.4 * 0.9_f64.sqrt()), ("area", 4e-3 * 0.4 * 2.0 / 3.0)] {
+    for (name, right) in [("depth", 4e-3), ("width", 0.4 * 0.9_f64.sqrt()), ("area", 4e-3 * 0.4 * 2.0 / 3.0)]
+    {
         assert!((measured(name) / right - 1.0).abs() < 4e-3, "{name}: {} for {right}", measured(name));
     }
     assert!((record["slope_taken_off"].as_f64().unwrap() - 5e-3).abs() < 1e-7);
@@ -49,7 +50,12 @@ fn a_measured_line_is_levelled_and_laid_over_the_computed_scar() {
     }
     bench.file("own.csv", &own);
     let answer = bench.fret(&["compare-scar", "out", "own.csv"]);
-    assert_eq!(answer.code, Some(1), "the cells are one too few for a line that ends half a cell within them: {}", answer.out);
+    assert_eq!(
+        answer.code,
+        Some(1),
+        "the cells are one too few for a line that ends half a cell within them: {}",
+        answer.out
+    );
     let wider = own.replacen("position,depth\num,um\n", "position,depth\num,um\n-400,0.7\n", 1) + "400,0.7\n";
     bench.file("own.csv", &wider);
     let answer = bench.fret(&["compare-scar", "out", "own.csv", "--json"]);
@@ -72,7 +78,11 @@ fn what_cannot_be_compared_is_refused_with_a_way_out() {
     bench.file("line.csv", &measured());
     let answer = bench.fret(&["compare-scar", "out", "line.csv"]);
     assert_eq!(answer.code, Some(1));
-    assert!(answer.err.contains("worn_depth was not kept") && answer.err.contains("output.fields"), "{}", answer.err);
+    assert!(
+        answer.err.contains("worn_depth was not kept") && answer.err.contains("output.fields"),
+        "{}",
+        answer.err
+    );
     let answer = bench.fret(&["compare-scar", "out", "line.csv", "--columns", "position"]);
     assert!(answer.err.contains("no equals sign"), "{}", answer.err);
     let answer = bench.fret(&["compare-scar", "out", "missing.csv"]);

@@ -12,7 +12,6 @@ use super::cell_rules::CellQuadrature;
 use super::constant_kernels::ConstantKernels;
 use super::far_cells::{FAR, LEAST};
 use super::lattice_samples::WaveResponse;
-use super::pair_response::PairResponse;
 use super::quartets::{Quartets, SurfaceDisplacement};
 use super::radial::{KernelLattice, KernelSource, RadialKernels};
 
@@ -252,7 +251,7 @@ fn mirror_rows(values: &mut [f64], first: usize, n: usize, partners: &[usize]) {
 
 /// Displacement of the surface by unit traction on a cell: zz, xx, yy, xy, zx, zy.
 pub(super) fn surface_coefficients(
-    response: &PairResponse,
+    response: &impl WaveResponse,
     cells: [usize; 2],
     spacing: [f64; 2],
 ) -> CellCoefficients<6> {

@@ -3,6 +3,8 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::fields::Scalar;
+
 /// A complex number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Complex {
@@ -95,11 +97,17 @@ pub(crate) trait Wavenumber:
     + Sub<Output = Self>
     + Mul<Output = Self>
     + Mul<f64, Output = Self>
+    + Mul<Self::Constant, Output = Self>
     + Div<Output = Self>
     + Neg<Output = Self>
 {
+    /// What constants of layers are beside it: numbers, or numbers with their derivatives.
+    type Constant: Scalar;
+
     /// A real number as one of these.
     fn real(value: f64) -> Self;
+    /// A constant as one of these.
+    fn constant(value: Self::Constant) -> Self;
     /// Real part.
     fn real_part(self) -> f64;
     /// Absolute value.
@@ -123,8 +131,14 @@ pub(crate) trait Wavenumber:
 }
 
 impl Wavenumber for f64 {
+    type Constant = f64;
+
     #[inline]
     fn real(value: f64) -> Self {
+        value
+    }
+    #[inline]
+    fn constant(value: f64) -> Self {
         value
     }
     #[inline]
@@ -146,8 +160,14 @@ impl Wavenumber for f64 {
 }
 
 impl Wavenumber for Complex {
+    type Constant = f64;
+
     #[inline]
     fn real(value: f64) -> Self {
+        Self::new(value, 0.0)
+    }
+    #[inline]
+    fn constant(value: f64) -> Self {
         Self::new(value, 0.0)
     }
     #[inline]

@@ -3,6 +3,7 @@
 use super::complex::Wavenumber;
 use super::layer_constants::LayerConstants;
 use super::matrix::{Matrix, Symmetric};
+use crate::fields::Scalar;
 
 /// Compliance of everything below a cut, times k [1/pressure]: `w = (k C) t`.
 #[derive(Clone, Copy, Debug)]
@@ -22,14 +23,14 @@ impl<T: Wavenumber> Compliance<T> {
     }
 }
 
-impl LayerConstants {
+impl<C: Scalar> LayerConstants<C> {
     /// `k C` of the half-space of this material.
-    pub(crate) fn half_space<T: Wavenumber>(&self) -> Compliance<T> {
-        let c0 = T::real(self.c0);
+    pub(crate) fn half_space<T: Wavenumber<Constant = C>>(&self) -> Compliance<T> {
+        let c0 = T::constant(self.c0);
         Compliance {
-            in_plane: Symmetric { rr: c0, zz: c0, rz: T::real(self.c0 * self.g) },
-            determinant: T::real(self.c0 * self.c0 * self.one_minus_g2),
-            tt: T::real(1.0 / self.mu),
+            in_plane: Symmetric { rr: c0, zz: c0, rz: T::constant(self.c0 * self.g) },
+            determinant: T::constant(self.c0 * self.c0 * self.one_minus_g2),
+            tt: T::constant(C::of(1.0) / self.mu),
         }
     }
 }

@@ -104,7 +104,7 @@ impl DepthResponse {
     }
 
     /// Response at a real or complex wavenumber.
-    pub(crate) fn at<T: Wavenumber>(&self, k: T) -> Transfer<T> {
+    pub(crate) fn at<T: Wavenumber<Constant = f64>>(&self, k: T) -> Transfer<T> {
         let opaque = self.below.iter().position(|layer| layer.is_opaque(k));
         let (mut compliance, below) = match (opaque, &self.base) {
             (Some(index), _) => (self.below[index].constants.half_space(), &self.below[..index]),
@@ -129,7 +129,11 @@ impl DepthResponse {
         self.transfer(&at_depth, &descent)
     }
 
-    fn transfer<T: Wavenumber>(&self, below: &Compliance<T>, descent: &Descent<T>) -> Transfer<T> {
+    fn transfer<T: Wavenumber<Constant = f64>>(
+        &self,
+        below: &Compliance<T>,
+        descent: &Descent<T>,
+    ) -> Transfer<T> {
         let (nu, mu) = (self.constants.poisson(), self.constants.shear_modulus());
         let (c, t) = (below.in_plane, descent.in_plane);
         let shear = [t.rr, t.rz];

@@ -5,8 +5,9 @@ use super::complex::Wavenumber;
 use super::compliance_below::Compliance;
 use super::layer::Carry;
 use super::layer_constants::LayerConstants;
-use super::stack_layer::{StackLayer, longest_length};
-use crate::model::{Base, ConductingLayer, Conductor, HalfSpace};
+use super::stack_layer::{LayerChanges, StackLayer, longest_length};
+use crate::fields::{Dual, Scalar};
+use crate::model::{Base, Coating, ConductingLayer, Conductor, HalfSpace};
 
 /// Surface displacement per traction at one wavenumber.
 ///
@@ -46,10 +47,10 @@ pub(crate) struct ResponseTimesK<T> {
 /// of O'Sullivan & King (1988), J. Tribol. 110, 235. Relative error about 2e-15 in `zz`, `rr`, `tt` for any contrast to 1e6,
 /// any `k h` and `nu <= 1/2`; `rz` changes sign and carries 2e-15 of `sqrt(rr zz)`. Cost 0.05 to 0.2 microseconds per coating.
 #[derive(Clone, Debug)]
-pub struct FrequencyResponse {
+pub struct FrequencyResponse<C = f64> {
     /// From the surface down.
-    layers: Vec<StackLayer>,
-    base: Option<LayerConstants>,
+    layers: Vec<StackLayer<C>>,
+    base: Option<LayerConstants<C>>,
     /// Whether `tt` is all there is, and stands for the others.
     conducts: bool,
 }
@@ -102,8 +103,32 @@ impl FrequencyResponse {
         Response { zz, rr, rz, tt }
     }
 
+    /// The response with every layer in its place and the derivatives of their constants by a parameter, from the surface down, those of the base
+    /// last (Young's modulus, Poisson's ratio).
+    pub(crate) fn with_changes(half_space: &HalfSpace, changes: &[LayerChanges]) -> FrequencyResponse<Dual> {
+        let none = LayerChanges::default();
+        let of = |index: usize| changes.get(index).unwrap_or(&none);
+        let coatings = half_space.coatings();
+        let layer = |(index, coating): (usize, &Coating)| {
+            StackLayer::of(coating).with_changes(coating.material(), of(index))
+        };
+        let LayerChanges { young, poisson, .. } = *of(coatings.len());
+        let base = match half_space.base() {
+            Base::Elastic(material) => Some(LayerConstants::with_changes(material, [young, poisson])),
+            Base::Rigid => None,
+        };
+        FrequencyResponse { layers: coatings.iter().enumerate().map(layer).collect(), base, conducts: false }
+    }
+
+    /// The thinnest coating's thickness \[length\]; none without coatings.
+    pub(crate) fn shortest_length(&self) -> Option<f64> {
+        self.layers.iter().map(|layer| layer.thickness).reduce(f64::min)
+    }
+}
+
+impl<C: Scalar> FrequencyResponse<C> {
     /// `k C(k)` at a real or complex wavenumber.
-    pub(crate) fn times_wavenumber<T: Wavenumber>(&self, k: T) -> ResponseTimesK<T> {
+    pub(crate) fn times_wavenumber<T: Wavenumber<Constant = C>>(&self, k: T) -> ResponseTimesK<T> {
         let Compliance { in_plane, tt, .. } = self.compliance(k);
         if self.conducts {
             return ResponseTimesK { zz: tt, rr: tt, rz: T::zero(), tt };
@@ -113,7 +138,7 @@ impl FrequencyResponse {
 
     /// Compliance at the surface. Nothing is felt through a layer so thick that it is a half-space to the last bit, so the
     /// recursion starts there.
-    fn compliance<T: Wavenumber>(&self, k: T) -> Compliance<T> {
+    fn compliance<T: Wavenumber<Constant = C>>(&self, k: T) -> Compliance<T> {
         let opaque = self.layers.iter().position(|layer| layer.is_opaque(k));
         let (mut compliance, above) = match (opaque, &self.base) {
             (Some(index), _) => (self.layers[index].constants.half_space(), &self.layers[..index]),
@@ -127,19 +152,14 @@ impl FrequencyResponse {
         compliance
     }
 
-    /// The response times k where it does not depend on k: a homogeneous half-space.
-    pub(crate) fn constant(&self) -> Option<Response> {
-        self.layers.is_empty().then(|| self.times_k(1.0))
+    /// Whether the response times k does not depend on k.
+    pub(crate) fn is_homogeneous(&self) -> bool {
+        self.layers.is_empty()
     }
 
     /// The longest length in the half-space, see [`longest_length`].
     pub(crate) fn longest_length(&self) -> f64 {
         longest_length(&self.layers, self.base.as_ref())
-    }
-
-    /// The thinnest coating's thickness \[length\]; none without coatings.
-    pub(crate) fn shortest_length(&self) -> Option<f64> {
-        self.layers.iter().map(|layer| layer.thickness).reduce(f64::min)
     }
 }
 

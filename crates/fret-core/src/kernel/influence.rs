@@ -4,6 +4,7 @@ use ndarray::{Array2, Axis};
 
 use super::cells::surface_coefficients;
 use super::homogeneous;
+use super::lattice_samples::{ResponseChange, WaveResponse};
 use super::pair_response::PairResponse;
 use crate::model::ContactPair;
 
@@ -77,9 +78,35 @@ pub fn influence_coefficients(
     coefficients_of(&response, cells, spacing, wanted)
 }
 
+/// How they change with a parameter: the derivative of the response through the same quadrature, which is linear.
+pub fn coefficients_by(
+    change: &ResponseChange,
+    cells: [usize; 2],
+    spacing: [f64; 2],
+    wanted: Components,
+) -> InfluenceCoefficients {
+    if wanted == Components::NORMAL
+        && homogeneous::serves(spacing)
+        && let Some(times_k) = change.constant()
+    {
+        let zz = Some(homogeneous::normal_coefficients(times_k.depthwise[1], cells, spacing));
+        return InfluenceCoefficients { zz, xx: None, yy: None, xy: None, zx: None, zy: None };
+    }
+    coefficients_of_waves(change, cells, spacing, wanted)
+}
+
 /// The same coefficients by the general way for any pair response, whatever simpler form it has.
 pub fn coefficients_of(
     response: &PairResponse,
+    cells: [usize; 2],
+    spacing: [f64; 2],
+    wanted: Components,
+) -> InfluenceCoefficients {
+    coefficients_of_waves(response, cells, spacing, wanted)
+}
+
+fn coefficients_of_waves(
+    response: &impl WaveResponse,
     cells: [usize; 2],
     spacing: [f64; 2],
     wanted: Components,

@@ -7,11 +7,15 @@ use super::depth_response::{DepthResponse, Transfer};
 use super::frequency_response::ResponseTimesK;
 use super::hankel_lattice::HankelLattice;
 use super::pair_response::PairResponse;
+use super::stack_layer::LayerChanges;
+use super::with_change::WithChange;
+use crate::fields::Dual;
+use crate::model::ContactPair;
 
 /// What answers a traction wave by its wavenumber alone, at some depth.
 pub(crate) trait WaveResponse: Sync {
     /// The answer at a wavenumber.
-    fn transfer<T: Wavenumber>(&self, k: T) -> Transfer<T>;
+    fn transfer<T: Wavenumber<Constant = f64>>(&self, k: T) -> Transfer<T>;
     /// The answer at any wavenumber, where it does not depend on it.
     fn constant(&self) -> Option<Transfer<f64>> {
         None
@@ -23,7 +27,7 @@ pub(crate) trait WaveResponse: Sync {
 }
 
 impl WaveResponse for DepthResponse {
-    fn transfer<T: Wavenumber>(&self, k: T) -> Transfer<T> {
+    fn transfer<T: Wavenumber<Constant = f64>>(&self, k: T) -> Transfer<T> {
         self.at(k)
     }
 
@@ -38,20 +42,8 @@ impl WaveResponse for DepthResponse {
 
 /// The surfaces of two bodies, lower minus upper: displacements alone.
 impl WaveResponse for PairResponse {
-    fn transfer<T: Wavenumber>(&self, k: T) -> Transfer<T> {
-        let ResponseTimesK { zz, rr, rz, tt } = self.times_wavenumber(k);
-        let zero = T::zero();
-        Transfer {
-            normal: [zero; 2],
-            shear: [zero; 2],
-            along: [zero; 2],
-            across: [zero; 2],
-            tangential: [rr, rz],
-            depthwise: [rz, zz],
-            twist_shear: zero,
-            in_plane_shear: zero,
-            sideways: tt,
-        }
+    fn transfer<T: Wavenumber<Constant = f64>>(&self, k: T) -> Transfer<T> {
+        of_surface(self.times_wavenumber(k))
     }
 
     fn constant(&self) -> Option<Transfer<f64>> {
@@ -60,6 +52,64 @@ impl WaveResponse for PairResponse {
 
     fn longest_length(&self) -> f64 {
         Self::longest_length(self)
+    }
+
+    fn depth(&self) -> f64 {
+        0.0
+    }
+}
+
+/// Displacements of the surface alone.
+fn of_surface<T: Wavenumber>(ResponseTimesK { zz, rr, rz, tt }: ResponseTimesK<T>) -> Transfer<T> {
+    let zero = T::zero();
+    Transfer {
+        normal: [zero; 2],
+        shear: [zero; 2],
+        along: [zero; 2],
+        across: [zero; 2],
+        tangential: [rr, rz],
+        depthwise: [rz, zz],
+        twist_shear: zero,
+        in_plane_shear: zero,
+        sideways: tt,
+    }
+}
+
+/// How the response of a pair changes with a parameter: one more response, to which every linear rule applies as to the pair's own.
+#[derive(Debug, Clone)]
+pub struct ResponseChange(PairResponse<Dual>);
+
+impl ResponseChange {
+    /// Of a pair, by the derivatives of the constants of the layers of its lower and of its upper body, from the surface down, those of the
+    /// substrate last.
+    pub fn new(pair: &ContactPair, changes: [&[LayerChanges]; 2]) -> Self {
+        Self(PairResponse::with_changes(pair, changes))
+    }
+
+    /// Whether it does not depend on the wavenumber.
+    pub(crate) fn is_homogeneous(&self) -> bool {
+        self.0.is_homogeneous()
+    }
+
+    /// Derivative of `k C(k)` at a wavenumber.
+    pub(crate) fn times_wavenumber<T: Wavenumber<Constant = f64>>(&self, k: T) -> ResponseTimesK<T> {
+        let found = self.0.times_wavenumber(WithChange { value: k, change: T::zero() });
+        let ResponseTimesK { zz, rr, rz, tt } = found;
+        ResponseTimesK { zz: zz.change, rr: rr.change, rz: rz.change, tt: tt.change }
+    }
+}
+
+impl WaveResponse for ResponseChange {
+    fn transfer<T: Wavenumber<Constant = f64>>(&self, k: T) -> Transfer<T> {
+        of_surface(self.times_wavenumber(k))
+    }
+
+    fn constant(&self) -> Option<Transfer<f64>> {
+        self.0.is_homogeneous().then(|| self.transfer(1.0))
+    }
+
+    fn longest_length(&self) -> f64 {
+        self.0.longest_length()
     }
 
     fn depth(&self) -> f64 {

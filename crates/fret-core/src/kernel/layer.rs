@@ -17,6 +17,7 @@ use super::complex::Wavenumber;
 use super::compliance_below::{Compliance, Descent};
 use super::layer_constants::LayerConstants;
 use super::matrix::{Matrix, Symmetric};
+use crate::fields::Scalar;
 
 /// Beyond this real part of `k h` a layer is a half-space to the last bit: `exp(-2 k h)` underflows.
 pub(crate) const OPAQUE: f64 = 375.0;
@@ -36,7 +37,7 @@ impl<T: Wavenumber> Carry<T> {
 
 /// The hybrid matrices of one layer at one wavenumber.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LayerMatrices<T> {
+pub(crate) struct LayerMatrices<T: Wavenumber> {
     /// Compliance of the layer on a rigid base.
     pub f: Symmetric<T>,
     /// Displacement at the top per displacement at the bottom.
@@ -53,7 +54,7 @@ pub(crate) struct LayerMatrices<T> {
     pub tanh: T,
     /// `1 / cosh(k h)`
     sech: T,
-    mu: f64,
+    mu: T::Constant,
     thin: bool,
 }
 
@@ -87,7 +88,8 @@ const XC_MINUS_S: [f64; 9] = reciprocals(2.0, 0.0, 2.0, 3.0);
 impl<T: Wavenumber> LayerMatrices<T> {
     /// Matrices of a layer with `x = k h`. Every entry is a ratio whose numerator and denominator are multiplied by
     /// `exp(-2 x)`: nothing exceeds order one.
-    pub(crate) fn new(constants: &LayerConstants, x: T) -> Self {
+    pub(crate) fn new(constants: &LayerConstants<T::Constant>, x: T) -> Self {
+        let inverse = |constant: T::Constant| T::Constant::of(1.0) / constant;
         let LayerConstants { nu, mu, b, g, c0, b_one_minus_4nu, one_minus_g2 } = *constants;
         let size = x.modulus();
         let t = (-x).exp();
@@ -123,10 +125,10 @@ impl<T: Wavenumber> LayerMatrices<T> {
         let per_delta = T::one() / delta;
 
         let scale_f = per_delta * (c0 * b);
-        let scale_z = per_delta * (1.0 / c0);
+        let scale_z = per_delta * inverse(c0);
         let scale_e = t * per_delta;
         let e_rz = scale_e * (sb * g + x * cb * b);
-        let e_zr = -(scale_e * (x * cb * (2.0 * b * nu) + xc_minus_s * g));
+        let e_zr = -(scale_e * (x * cb * (b * 2.0 * nu) + xc_minus_s * g));
         let bxs = x * sb * b;
         let thin = size < 0.25;
         let e_m1 = if thin {
@@ -146,7 +148,7 @@ impl<T: Wavenumber> LayerMatrices<T> {
             f: Symmetric {
                 rr: scale_f * (sc_plus_x + sc_minus_x * g),
                 zz: scale_f * (sc_minus_x + sc_plus_x * g),
-                rz: scale_f * (ss_minus_xx * (g * (1.0 + g)) + xxe * b_one_minus_4nu),
+                rz: scale_f * (ss_minus_xx * (g * (g + 1.0)) + xxe * b_one_minus_4nu),
             },
             e: Matrix { rr: scale_e * (cb - bxs), rz: e_rz, zr: e_zr, zz: scale_e * (cb + bxs) },
             z: Symmetric {
@@ -154,9 +156,9 @@ impl<T: Wavenumber> LayerMatrices<T> {
                 zz: scale_z * sc_minus_x,
                 rz: scale_z * (ss * g + xxe * b),
             },
-            det_f: scale_f * (c0 * b) * (ss_minus_xx * ((1.0 + g) * (1.0 + g)) + xxe * (4.0 * g)),
+            det_f: scale_f * (c0 * b) * (ss_minus_xx * ((g + 1.0) * (g + 1.0)) + xxe * (g * 4.0)),
             det_e: e * per_delta,
-            det_z: scale_z * (1.0 / c0) * ss_minus_xx,
+            det_z: scale_z * inverse(c0) * ss_minus_xx,
             e_m1,
             tanh: sb / cb,
             sech: t / cb,
@@ -231,18 +233,18 @@ impl<T: Wavenumber> LayerMatrices<T> {
 
     /// The same across the plane of the wavevector: `(tt + tanh x / mu) / (1 + mu tt tanh x)`.
     fn lift_across(&self, below: T, carry: &mut T) -> T {
-        let ratio = below * self.mu;
+        let (ratio, per_mu) = (below * self.mu, T::Constant::of(1.0) / self.mu);
         let product = ratio * self.tanh;
         let denominator = T::one() + product;
         if self.thin && product.modulus() < 1.0 {
             let increment =
-                self.tanh * (1.0 / self.mu) * (T::one() - ratio) * (T::one() + ratio) / denominator + *carry;
+                self.tanh * per_mu * (T::one() - ratio) * (T::one() + ratio) / denominator + *carry;
             let (top, low) = two_sum(below, increment);
             *carry = low;
             top
         } else {
             *carry = T::zero();
-            (below + self.tanh * (1.0 / self.mu)) / denominator
+            (below + self.tanh * per_mu) / denominator
         }
     }
 }

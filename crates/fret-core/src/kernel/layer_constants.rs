@@ -1,41 +1,49 @@
 //! Elastic constants of a layer, as the formulas of layers use them.
 
+use crate::fields::Scalar;
 use crate::model::ElasticMaterial;
 
 /// Elastic constants of one material, as the layer formulas use them.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LayerConstants {
+pub(crate) struct LayerConstants<C = f64> {
     /// Poisson's ratio.
-    pub(super) nu: f64,
+    pub(super) nu: C,
     /// Shear modulus \[pressure\].
-    pub(super) mu: f64,
+    pub(super) mu: C,
     /// `1 / (2 (1 - nu))`
-    pub(super) b: f64,
+    pub(super) b: C,
     /// `(1 - 2 nu) / (2 (1 - nu))`
-    pub(super) g: f64,
+    pub(super) g: C,
     /// `(1 - nu) / mu`, compliance of the half-space [1/pressure].
-    pub(super) c0: f64,
+    pub(super) c0: C,
     /// `b (1 - 4 nu)`
-    pub(super) b_one_minus_4nu: f64,
+    pub(super) b_one_minus_4nu: C,
     /// `(1 - g) (1 + g)`
-    pub(super) one_minus_g2: f64,
+    pub(super) one_minus_g2: C,
 }
 
-impl LayerConstants {
-    pub(crate) fn new(material: &ElasticMaterial) -> Self {
-        let nu = material.poisson();
-        let mu = material.shear_modulus();
-        let b = 0.5 / (1.0 - nu);
-        let g = (1.0 - 2.0 * nu) * b;
+impl<C: Scalar> LayerConstants<C> {
+    /// Those of Young's modulus and Poisson's ratio.
+    pub(crate) fn of(young: C, nu: C) -> Self {
+        let one = C::of(1.0);
+        let mu = young / ((nu + 1.0) * 2.0);
+        let b = C::of(0.5) / (one - nu);
+        let g = (one - nu * 2.0) * b;
         Self {
             nu,
             mu,
             b,
             g,
-            c0: (1.0 - nu) / mu,
-            b_one_minus_4nu: b * (1.0 - 4.0 * nu),
-            one_minus_g2: (1.0 - g) * (1.0 + g),
+            c0: (one - nu) / mu,
+            b_one_minus_4nu: b * (one - nu * 4.0),
+            one_minus_g2: (one - g) * (g + 1.0),
         }
+    }
+}
+
+impl LayerConstants {
+    pub(crate) fn new(material: &ElasticMaterial) -> Self {
+        Self::of(material.young(), material.poisson())
     }
 
     /// Of a layer whose shear modulus stands for a conductivity: conduction is antiplane shear (Poisson's ratio does not enter).

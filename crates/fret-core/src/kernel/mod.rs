@@ -44,13 +44,18 @@ mod radial;
 pub(crate) mod samples;
 #[cfg(test)]
 mod third_party;
+mod with_change;
 
 pub use collocation::cells_too_coarse_for_incompressible_film;
 pub use frequency_response::{FrequencyResponse, Response};
-pub use influence::{Components, InfluenceCoefficients, coefficients_of, influence_coefficients};
+pub use influence::{
+    Components, InfluenceCoefficients, coefficients_by, coefficients_of, influence_coefficients,
+};
+pub use lattice_samples::ResponseChange;
 pub use line_influence::{line_coefficients, line_coefficients_of};
 pub use pair_response::PairResponse;
-pub use periodic::{PeriodicSymbols, periodic_symbols, symbols_of, uniform_response};
+pub use periodic::{PeriodicSymbols, periodic_symbols, symbols_by, symbols_of, uniform_response};
 pub use response_table::ResponseTable;
 pub use sampled::sampled_coefficients;
+pub use stack_layer::LayerChanges;
 pub use sublayers::{SublayerError, layered_half_space};

@@ -2,6 +2,8 @@
 
 use super::complex::Wavenumber;
 use super::frequency_response::{FrequencyResponse, Response, ResponseTimesK};
+use super::stack_layer::LayerChanges;
+use crate::fields::{Dual, Scalar};
 use crate::model::{Body, Conductor, ContactPair};
 
 /// Composite frequency response of a pair: displacements of the lower surface minus those of the upper one, as the contact
@@ -10,9 +12,9 @@ use crate::model::{Body, Conductor, ContactPair};
 /// Self terms (`zz`, `rr`, `tt`) of the two bodies add. The coupling `rz` is the lower body's minus the upper's: shear acts on
 /// the upper body in the opposite sense and its depth points the other way. Two bodies of one elasticity do not couple.
 #[derive(Clone, Debug)]
-pub struct PairResponse {
-    lower: Option<FrequencyResponse>,
-    upper: Option<FrequencyResponse>,
+pub struct PairResponse<C = f64> {
+    lower: Option<FrequencyResponse<C>>,
+    upper: Option<FrequencyResponse<C>>,
 }
 
 impl PairResponse {
@@ -53,34 +55,19 @@ impl PairResponse {
         Response { zz, rr, rz, tt }
     }
 
-    /// `k C(k)` at a real or complex wavenumber.
-    pub(crate) fn times_wavenumber<T: Wavenumber>(&self, k: T) -> ResponseTimesK<T> {
-        let mut sum = ResponseTimesK { zz: T::zero(), rr: T::zero(), rz: T::zero(), tt: T::zero() };
-        for (body, coupling) in [(&self.lower, 1.0), (&self.upper, -1.0)] {
-            let Some(body) = body else { continue };
-            let body = body.times_wavenumber(k);
-            sum = ResponseTimesK {
-                zz: sum.zz + body.zz,
-                rr: sum.rr + body.rr,
-                rz: sum.rz + body.rz * coupling,
-                tt: sum.tt + body.tt,
-            };
-        }
-        sum
-    }
-
-    fn bodies(&self) -> impl Iterator<Item = &FrequencyResponse> {
-        self.lower.iter().chain(&self.upper)
+    /// The response of a pair with the derivatives of the constants of the layers of its lower and of its upper body by a parameter; see
+    /// [`FrequencyResponse::with_changes`].
+    pub(crate) fn with_changes(pair: &ContactPair, changes: [&[LayerChanges]; 2]) -> PairResponse<Dual> {
+        let prepare = |body: &Body, changes: &[LayerChanges]| match body {
+            Body::Rigid => None,
+            Body::Elastic(half_space) => Some(FrequencyResponse::with_changes(half_space, changes)),
+        };
+        PairResponse { lower: prepare(pair.lower(), changes[0]), upper: prepare(pair.upper(), changes[1]) }
     }
 
     /// The response times k where it does not depend on k: two homogeneous bodies, or one and a rigid one.
     pub(crate) fn constant(&self) -> Option<Response> {
-        self.bodies().all(|body| body.constant().is_some()).then(|| self.times_k(1.0))
-    }
-
-    /// The longest length in either body, see [`FrequencyResponse::longest_length`].
-    pub(crate) fn longest_length(&self) -> f64 {
-        self.bodies().map(FrequencyResponse::longest_length).fold(0.0, f64::max)
+        self.is_homogeneous().then(|| self.times_k(1.0))
     }
 
     /// Whether pressure causes no tangential displacement and shear no normal one: `rz = 0` at every wavenumber, as for two
@@ -112,6 +99,38 @@ impl PairResponse {
             whole = whole.max(found.1);
         }
         part <= 1e-14 * whole
+    }
+}
+
+impl<C: Scalar> PairResponse<C> {
+    /// `k C(k)` at a real or complex wavenumber.
+    pub(crate) fn times_wavenumber<T: Wavenumber<Constant = C>>(&self, k: T) -> ResponseTimesK<T> {
+        let mut sum = ResponseTimesK { zz: T::zero(), rr: T::zero(), rz: T::zero(), tt: T::zero() };
+        for (body, coupling) in [(&self.lower, 1.0), (&self.upper, -1.0)] {
+            let Some(body) = body else { continue };
+            let body = body.times_wavenumber(k);
+            sum = ResponseTimesK {
+                zz: sum.zz + body.zz,
+                rr: sum.rr + body.rr,
+                rz: sum.rz + body.rz * coupling,
+                tt: sum.tt + body.tt,
+            };
+        }
+        sum
+    }
+
+    fn bodies(&self) -> impl Iterator<Item = &FrequencyResponse<C>> {
+        self.lower.iter().chain(&self.upper)
+    }
+
+    /// Whether the response times k does not depend on k.
+    pub(crate) fn is_homogeneous(&self) -> bool {
+        self.bodies().all(FrequencyResponse::is_homogeneous)
+    }
+
+    /// The longest length in either body, see [`FrequencyResponse::longest_length`].
+    pub(crate) fn longest_length(&self) -> f64 {
+        self.bodies().map(FrequencyResponse::longest_length).fold(0.0, f64::max)
     }
 }
 

@@ -8,8 +8,11 @@ use rayon::prelude::*;
 
 use super::axis_waves::{AxisWaves, axis_waves};
 use super::influence::Components;
+use super::lattice_samples::ResponseChange;
 use super::pair_response::PairResponse;
 use super::response_table::ResponseTable;
+use super::stack_layer::LayerChanges;
+use crate::fields::{Dual, Scalar};
 use crate::model::{Base, Body, ContactPair};
 
 /// Response of a grid's cells to unit traction waves [length/pressure], at wavenumbers `2 pi a/(nx dx)`, `2 pi b/(ny dy)`,
@@ -56,18 +59,30 @@ pub fn periodic_symbols(
 /// `E_oed = E (1 - nu) / ((1 + nu) (1 - 2 nu))`, and `sum h/G`, over the layers of both bodies, each with the jump at the springs below
 /// it. `None` where a body is a half-space: a uniform traction moves it without bound; tangentially infinite where a layer slides freely.
 pub fn uniform_response(pair: &ContactPair) -> Option<[f64; 2]> {
-    let mut sum = [0.0; 2];
-    for body in [pair.upper(), pair.lower()] {
+    uniform(pair, [&[]; 2]).map(|sum| sum.map(|dual| dual.value))
+}
+
+/// The same with the derivatives of the constants of the layers of the lower and of the upper body by a parameter.
+fn uniform(pair: &ContactPair, changes: [&[LayerChanges]; 2]) -> Option<[Dual; 2]> {
+    let mut sum = [Dual::of(0.0); 2];
+    let none = LayerChanges::default();
+    for (body, changes) in [(pair.upper(), changes[1]), (pair.lower(), changes[0])] {
         let Body::Elastic(stack) = body else { continue };
         if *stack.base() != Base::Rigid {
             return None;
         }
-        for layer in stack.coatings() {
-            let (material, nu) = (layer.material(), layer.material().poisson());
-            sum[0] += layer.thickness() * (1.0 + nu) * (1.0 - 2.0 * nu) / (material.young() * (1.0 - nu));
-            sum[1] += layer.thickness() / material.shear_modulus();
-            sum[0] += layer.interface().normal_compliance();
-            sum[1] += layer.interface().shear_compliance();
+        for (index, layer) in stack.coatings().iter().enumerate() {
+            let by = changes.get(index).unwrap_or(&none);
+            let one = Dual::of(1.0);
+            let thickness = Dual::new(layer.thickness(), by.thickness);
+            let [young, nu] =
+                [(layer.material().young(), by.young), (layer.material().poisson(), by.poisson)]
+                    .map(|(value, change)| Dual::new(value, change));
+            let interface = layer.interface();
+            sum[0] = sum[0] + thickness * (nu + 1.0) * (one - nu * 2.0) / (young * (one - nu));
+            sum[1] = sum[1] + thickness / (young / ((nu + 1.0) * 2.0));
+            sum[0] = sum[0] + Dual::new(interface.normal_compliance(), by.normal);
+            sum[1] = sum[1] + Dual::new(interface.shear_compliance(), by.shear);
         }
     }
     Some(sum)
@@ -88,6 +103,29 @@ impl PeriodicSymbols {
         }
         self
     }
+}
+
+/// How [`periodic_symbols`] change with a parameter, by which the constants of the layers of the lower and of the upper body have these derivatives.
+pub fn symbols_by(
+    pair: &ContactPair,
+    changes: [&[LayerChanges]; 2],
+    cells: [usize; 2],
+    spacing: [f64; 2],
+    wanted: Components,
+) -> PeriodicSymbols {
+    let [least, greatest] = wavenumbers(cells, spacing, 0);
+    let table = ResponseTable::of_change(ResponseChange::new(pair, changes), least, greatest);
+    let mut symbols = table.symbols(cells, spacing, wanted, 0);
+    if let Some([normal, tangential]) = uniform(pair, changes) {
+        let uniform =
+            [(&mut symbols.zz, normal), (&mut symbols.xx, tangential), (&mut symbols.yy, tangential)];
+        for (symbol, Dual { value, change }) in uniform {
+            if let Some(symbol) = symbol.as_mut().filter(|_| value.is_finite()) {
+                symbol[[0, 0]] = change;
+            }
+        }
+    }
+    symbols
 }
 
 /// The same symbols of any pair response, without what a uniform traction does.

@@ -4,7 +4,8 @@ use ndarray::Array2;
 use pulp::Scalar;
 
 use super::axis_waves::{AxisWaves, axis_waves};
-use super::frequency_response::Response;
+use super::frequency_response::{Response, ResponseTimesK};
+use super::lattice_samples::ResponseChange;
 use super::pair_response::PairResponse;
 use super::panels::Panels;
 use crate::model::ContactPair;
@@ -12,8 +13,36 @@ use crate::model::ContactPair;
 /// The frequency response of a pair, tabulated as polynomials of `k^2` so that it costs no exponentials, however many layers.
 #[derive(Clone, Debug)]
 pub struct ResponseTable {
-    pair: PairResponse,
+    source: Source,
     values: Values,
+}
+
+/// What is tabulated.
+#[derive(Clone, Debug)]
+enum Source {
+    /// The response of a pair.
+    Pair(PairResponse),
+    /// How it changes with a parameter.
+    Change(ResponseChange),
+}
+
+impl Source {
+    fn times_k(&self, k: f64) -> [f64; 4] {
+        match self {
+            Self::Pair(pair) => components(pair.times_k(k)),
+            Self::Change(change) => {
+                let ResponseTimesK { zz, rr, rz, tt } = change.times_wavenumber(k);
+                [zz, rr, rz, tt]
+            }
+        }
+    }
+
+    fn is_constant(&self) -> bool {
+        match self {
+            Self::Pair(pair) => pair.is_homogeneous(),
+            Self::Change(change) => change.is_homogeneous(),
+        }
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -33,13 +62,22 @@ impl ResponseTable {
 
     /// The table of a response, as [`ResponseTable::new`] makes it of a pair's.
     pub fn of(pair: PairResponse, least: f64, greatest: f64) -> Self {
-        let values = match pair.constant() {
-            Some(response) => Values::Constant(components(response)),
-            None => Values::Tabulated(Panels::new(least * least, greatest * greatest, |square| {
-                [components(pair.times_k(square.sqrt()))]
-            })),
+        Self::of_source(Source::Pair(pair), least, greatest)
+    }
+
+    /// The table of a change of a response.
+    pub(super) fn of_change(change: ResponseChange, least: f64, greatest: f64) -> Self {
+        Self::of_source(Source::Change(change), least, greatest)
+    }
+
+    fn of_source(source: Source, least: f64, greatest: f64) -> Self {
+        let values = if source.is_constant() {
+            Values::Constant(source.times_k(1.0))
+        } else {
+            let at = |square: f64| [source.times_k(square.sqrt())];
+            Values::Tabulated(Panels::new(least * least, greatest * greatest, at))
         };
-        Self { pair, values }
+        Self { source, values }
     }
 
     /// `k C(k)` [1/pressure].
@@ -53,7 +91,7 @@ impl ResponseTable {
         match &self.values {
             Values::Constant(response) => *response,
             Values::Tabulated(panels) if panels.holds(square) => panels.at::<Scalar>(square)[0],
-            Values::Tabulated(_) => components(self.pair.times_k(square.sqrt())),
+            Values::Tabulated(_) => self.source.times_k(square.sqrt()),
         }
     }
 

@@ -5,7 +5,8 @@ use super::compliance_below::{Compliance, Descent};
 use super::layer::{Carry, LayerMatrices, OPAQUE};
 use super::layer_constants::LayerConstants;
 use super::matrix::Symmetric;
-use crate::model::{Coating, Interface};
+use crate::fields::{Dual, Scalar};
+use crate::model::{Coating, ElasticMaterial, Interface};
 
 /// A frictionless interface is a shear spring with a compliance of so many times the layer's thickness over its shear modulus: exact to
 /// the last bit for `k h` down to 1e-20 and more, since every number made of it is a sum or a ratio of positive terms.
@@ -13,28 +14,32 @@ const FREE: f64 = (1_u128 << 127) as f64;
 
 /// Springs between a layer and what lies below it: jump of displacement per traction [length/pressure].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Springs {
-    normal: f64,
-    shear: f64,
+pub(crate) struct Springs<C = f64> {
+    normal: C,
+    shear: C,
 }
 
 impl Springs {
-    /// Bonded.
-    pub(crate) const NONE: Self = Self { normal: 0.0, shear: 0.0 };
-
     fn of(interface: &Interface, free: f64) -> Self {
         Self {
             normal: interface.normal_compliance().min(free),
             shear: interface.shear_compliance().min(free),
         }
     }
+}
+
+impl<C: Scalar> Springs<C> {
+    /// Bonded.
+    fn none() -> Self {
+        Self { normal: C::of(0.0), shear: C::of(0.0) }
+    }
 
     fn are_none(self) -> bool {
-        self == Self::NONE
+        self.normal.value() == 0.0 && self.shear.value() == 0.0
     }
 
     /// Compliance above the springs, times k, from the one below: each spring adds its own, `k` times jump per traction.
-    fn over<T: Wavenumber>(self, k: T, below: Compliance<T>) -> Compliance<T> {
+    fn over<T: Wavenumber<Constant = C>>(self, k: T, below: Compliance<T>) -> Compliance<T> {
         if self.are_none() {
             return below;
         }
@@ -50,18 +55,13 @@ impl Springs {
 
 /// A layer and the springs below it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct StackLayer {
-    pub(super) constants: LayerConstants,
-    pub(super) thickness: f64,
-    springs: Springs,
+pub(crate) struct StackLayer<C = f64> {
+    pub(super) constants: LayerConstants<C>,
+    pub(super) thickness: C,
+    springs: Springs<C>,
 }
 
 impl StackLayer {
-    /// A bonded layer.
-    pub(crate) fn bonded(constants: LayerConstants, thickness: f64) -> Self {
-        Self { constants, thickness, springs: Springs::NONE }
-    }
-
     /// That of a coating.
     pub(crate) fn of(coating: &Coating) -> Self {
         let constants = LayerConstants::new(coating.material());
@@ -76,18 +76,61 @@ impl StackLayer {
         [Self::bonded(self.constants, within), below]
     }
 
+    /// The same with the derivatives of its constants by a parameter: of Young's modulus, Poisson's ratio, thickness, and the compliances of
+    /// its springs; `material`: that of the layer.
+    pub(crate) fn with_changes(self, material: &ElasticMaterial, changes: &LayerChanges) -> StackLayer<Dual> {
+        let LayerChanges { young, poisson, thickness, normal, shear } = *changes;
+        StackLayer {
+            constants: LayerConstants::with_changes(material, [young, poisson]),
+            thickness: Dual::new(self.thickness, thickness),
+            springs: Springs {
+                normal: Dual::new(self.springs.normal, normal),
+                shear: Dual::new(self.springs.shear, shear),
+            },
+        }
+    }
+
     /// Whether there is nothing of it, springs included.
     pub(crate) fn is_empty(&self) -> bool {
         self.thickness == 0.0 && self.springs.are_none()
     }
+}
+
+/// Derivatives of the constants of a layer by a parameter.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LayerChanges {
+    /// Of Young's modulus.
+    pub young: f64,
+    /// Of Poisson's ratio.
+    pub poisson: f64,
+    /// Of the thickness.
+    pub thickness: f64,
+    /// Of the jump of normal displacement per pressure at the interface below it.
+    pub normal: f64,
+    /// Of the jump of tangential displacement per shear there.
+    pub shear: f64,
+}
+
+impl LayerConstants<Dual> {
+    /// Constants of a material with their derivatives by a parameter, of which those of Young's modulus and Poisson's ratio are given.
+    pub(crate) fn with_changes(material: &ElasticMaterial, [young, poisson]: [f64; 2]) -> Self {
+        Self::of(Dual::new(material.young(), young), Dual::new(material.poisson(), poisson))
+    }
+}
+
+impl<C: Scalar> StackLayer<C> {
+    /// A bonded layer.
+    pub(crate) fn bonded(constants: LayerConstants<C>, thickness: C) -> Self {
+        Self { constants, thickness, springs: Springs::none() }
+    }
 
     /// Whether a wave so short is not felt through the layer, to the last bit.
-    pub(crate) fn is_opaque<T: Wavenumber>(&self, k: T) -> bool {
+    pub(crate) fn is_opaque<T: Wavenumber<Constant = C>>(&self, k: T) -> bool {
         (k * self.thickness).real_part() > OPAQUE
     }
 
     /// Compliance at the top of the layer from the one of what lies below its springs.
-    pub(crate) fn lift<T: Wavenumber>(
+    pub(crate) fn lift<T: Wavenumber<Constant = C>>(
         &self,
         k: T,
         below: Compliance<T>,
@@ -97,7 +140,7 @@ impl StackLayer {
     }
 
     /// The same, and the traction below the layer per traction at its top.
-    pub(crate) fn lift_and_descend<T: Wavenumber>(
+    pub(crate) fn lift_and_descend<T: Wavenumber<Constant = C>>(
         &self,
         k: T,
         below: Compliance<T>,
@@ -111,22 +154,22 @@ impl StackLayer {
     /// The longest length that springs make with a body of this shear modulus \[length\]: modulus times jump per traction. A frictionless
     /// interface makes none in what pressure does.
     pub(crate) fn length_of_springs(&self, modulus: f64) -> f64 {
-        let free = FREE * (self.thickness / self.constants.shear_modulus());
+        let free = FREE * (self.thickness.value() / self.constants.mu.value());
         let of = |compliance: f64| if compliance < free { modulus * compliance } else { 0.0 };
-        of(self.springs.normal) + of(self.springs.shear)
+        of(self.springs.normal.value()) + of(self.springs.shear.value())
     }
 }
 
 /// The longest length of a stack \[length\]: total thickness of its layers times the largest ratio of shear moduli (a stiff film spreads
 /// shear so far; plates bend over less), and what springs make with the stiffest material. Zero without layers.
-pub(crate) fn longest_length(layers: &[StackLayer], base: Option<&LayerConstants>) -> f64 {
+pub(crate) fn longest_length<C: Scalar>(layers: &[StackLayer<C>], base: Option<&LayerConstants<C>>) -> f64 {
     let moduli = || {
-        let layers = layers.iter().map(|layer| layer.constants.shear_modulus());
-        layers.chain(base.map(LayerConstants::shear_modulus))
+        let layers = layers.iter().map(|layer| layer.constants.mu.value());
+        layers.chain(base.map(|base| base.mu.value()))
     };
     let stiffest = moduli().fold(0.0, f64::max);
     let softest = moduli().fold(f64::INFINITY, f64::min);
-    let thickness: f64 = layers.iter().map(|layer| layer.thickness).sum();
+    let thickness: f64 = layers.iter().map(|layer| layer.thickness.value()).sum();
     let springs: f64 = layers.iter().map(|layer| layer.length_of_springs(stiffest)).sum();
     thickness * (stiffest / softest) + springs
 }

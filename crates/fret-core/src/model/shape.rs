@@ -170,6 +170,59 @@ impl Shape {
         }
     }
 
+    /// Derivative of the gap at a point by one of the numbers that make the shape, called as in a case; `None` where it has no such number, or
+    /// none that the gap depends on smoothly.
+    pub fn gap_change_at(&self, by: &str, x: f64, y: f64) -> Option<f64> {
+        let gap = self.gap_at(x, y);
+        match (*self, by) {
+            (Self::Sphere { radius } | Self::Cylinder { radius, .. }, "radius") => {
+                Some(if gap.is_finite() { -gap / radius } else { 0.0 })
+            }
+            (Self::Ellipsoid { radius_x, .. }, "radius_x") => Some(-x * x / (2.0 * radius_x * radius_x)),
+            (Self::Ellipsoid { radius_y, .. }, "radius_y") => Some(-y * y / (2.0 * radius_y * radius_y)),
+            (Self::RoundedPunch { flat_radius, edge_radius }, "flat_radius") => {
+                Some(-(x.hypot(y) - flat_radius).max(0.0) / edge_radius)
+            }
+            (Self::RoundedPunch { edge_radius, .. }, "edge_radius") => Some(-gap / edge_radius),
+            (Self::Cone { slope }, "slope") => Some(gap / slope),
+            (Self::Wave { amplitude, .. }, "amplitude") => Some(gap / amplitude),
+            _ => None,
+        }
+    }
+
+    /// One of the numbers that make the shape, called as in a case.
+    pub fn number(&self, name: &str) -> Option<f64> {
+        match (*self, name) {
+            (
+                Self::Sphere { radius } | Self::Cylinder { radius, .. } | Self::FlatPunch { radius },
+                "radius",
+            ) => Some(radius),
+            (Self::Ellipsoid { radius_x, .. }, "radius_x") => Some(radius_x),
+            (Self::Ellipsoid { radius_y, .. }, "radius_y") => Some(radius_y),
+            (Self::RoundedPunch { flat_radius, .. }, "flat_radius") => Some(flat_radius),
+            (Self::RoundedPunch { edge_radius, .. }, "edge_radius") => Some(edge_radius),
+            (Self::Cone { slope }, "slope") => Some(slope),
+            (Self::Wave { amplitude, .. }, "amplitude") => Some(amplitude),
+            (Self::Wave { wavelengths, .. }, "wavelength_x") => wavelengths[0],
+            (Self::Wave { wavelengths, .. }, "wavelength_y") => wavelengths[1],
+            (Self::Cylinder { length, .. }, "length") => length,
+            _ => None,
+        }
+    }
+
+    /// The name of its table in a case.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Sphere { .. } => "sphere",
+            Self::Ellipsoid { .. } => "ellipsoid",
+            Self::Cylinder { .. } => "cylinder",
+            Self::RoundedPunch { .. } => "rounded_punch",
+            Self::FlatPunch { .. } => "flat_punch",
+            Self::Cone { .. } => "cone",
+            Self::Wave { .. } => "wave",
+        }
+    }
+
     /// Curvatures along x and y of a paraboloid [1/length]; `None` for other shapes.
     pub fn curvatures(&self) -> Option<[f64; 2]> {
         match *self {

@@ -28,5 +28,6 @@ mod wear;
 pub use checkpoint::{Checkpoint, CheckpointError, Waypoint};
 pub use in_common::{InCommon, beginnings};
 pub use observer::{Iteration, Observer, Silent};
+pub(crate) use pair_compliance::PairCompliance;
 pub use run_error::RunError;
 pub use simulation::Simulation;

@@ -53,13 +53,20 @@ use crate::model::{
     Beyond, BulkCompliance, ContactState, CoulombFriction, LoadStep, Rig, SurfaceGrid, Symmetry,
 };
 
-pub(crate) use laws::friction::{bounds_on_grid as friction_bounds, dissipation};
+pub(crate) use contact_set::ContactSet;
+pub(crate) use laws::friction::{
+    FrictionLaw, bounds_on_grid as friction_bounds, dissipation, slip_until_open,
+};
 pub(crate) use laws::limit::sliding_fraction;
-pub(crate) use laws::slip_path::length_of_way;
+pub(crate) use laws::slip_path::{end_of_chord, length_of_way, rate_since_touch};
+pub(crate) use linear::preconditioner::{CellWaves, Preconditioner, SlipWeights};
 pub use memory::SolverMemory;
 pub(crate) use outcome::worst;
 pub use outcome::{Increment, Outcome, Regime, Residual, Resultants, Work};
+pub(crate) use region::Region;
 pub use settings::{Coupling, IterationCallback, SolveError, SolverSettings};
+pub(crate) use slip_history::{Paths, Recent};
+pub(crate) use start::pace_of;
 
 use held_response::HeldResponse;
 pub use held_response::ResponseMaker;

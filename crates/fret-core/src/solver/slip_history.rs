@@ -4,10 +4,10 @@ use std::ops::Range;
 
 use ndarray::Array2;
 
-use super::laws::slip_path::SlipPath;
+use super::laws::slip_path::{SlipPath, path_that_goes_on, turn_that_begins};
 use super::memory::{Before, Drift, SolverMemory};
 use super::region::Region;
-use crate::fields::{TangentialField, in_portions, length};
+use crate::fields::{Scalar, TangentialField, in_portions, length_of};
 use crate::model::{ContactState, Zone};
 
 /// Slip that cells have still to go when they come to rest, over that of the last increment, summed over all moments of the increment at
@@ -31,18 +31,41 @@ const KNOWN: f64 = 0.01;
 
 /// Length of an increment over that of the last one, which it goes on from.
 #[derive(Debug, Clone, Copy)]
-pub struct Pace {
+pub struct Pace<R = f64> {
     /// In the loads.
-    pub loads: f64,
+    pub loads: R,
     /// In the normal load, which moves the edge of contact; `None` where that turns.
-    pub edge: Option<f64>,
+    pub edge: Option<R>,
+}
+
+/// What is known of the last two increments in the cells of a region, in numbers of any kind.
+pub struct Recent<'a, R> {
+    /// The region.
+    pub region: Region,
+    /// What its cells did in the last increment.
+    pub zones: Vec<Zone>,
+    /// Drift of the last increment [length].
+    pub drift: [Vec<R>; 2],
+    /// Length of it over that of the one before, in the loads.
+    pub ratio: R,
+    /// Whether the moments of touch in it were known.
+    pub knows_touch: bool,
+    /// Drift of the increment before that [length], and the pressure that the last one started from.
+    pub then: Option<([Vec<R>; 2], Vec<f64>)>,
+    /// Shear at the start of the increment [pressure].
+    pub shear: [Vec<R>; 2],
+    /// Gap on the grid before the last increment, and after it [length].
+    pub gaps: Option<[&'a Array2<R>; 2]>,
+}
+
+/// The paths in the cells of a region: the vectors t, the offsets a and the moments of touch of [`SlipPath`].
+pub struct Paths<R> {
+    pub turn: [Vec<R>; 2],
+    pub ahead: [Vec<R>; 2],
+    pub touch: Vec<R>,
 }
 
 /// The paths in the cells of a region, in an increment of a `pace`; `None` where nothing is known.
-///
-/// *Stop.* Cells that slipped; see [`STOP`]. Nothing where slip does not fall, the whole of it where it falls to half, [`ENTERED`]
-/// of it where a cell has just entered, and nothing where the moment of its touch was not known. *Start.* Cells that stuck; see [`BEGUN`]. *Entry.* Open
-/// cells; see [`Edge`].
 ///
 /// `beyond` finds the drift of the last increment in the whole region, for cells outside the region of then.
 pub fn slip_path(
@@ -53,67 +76,132 @@ pub fn slip_path(
 ) -> Option<SlipPath> {
     let last = memory.last.as_ref()?;
     let cells = state.pressure.dim().into();
-    let drift = last.drift.on(cells, region);
-    let mut path = SlipPath::straight(region.len());
+    let parts = |TangentialField { x, y }: TangentialField| [x, y];
     let before = memory.before.as_ref();
     let then = before.and_then(|before| {
         let drift = before.drift.as_ref()?.on(cells, region);
-        Some((drift, region.gather(&before.tractions.pressure)))
+        Some((parts(drift), region.gather(&before.tractions.pressure)))
     });
-    let zones = region.gather_map(&state.zone, |zone| *zone);
-    let slip = |cell: usize| length(drift.at(cell));
-    let slipping = (0..region.len()).filter(|&cell| zones[cell] == Zone::Slip);
-    let largest = slipping.clone().map(slip).fold(0.0, f64::max);
-    for cell in slipping {
-        let here = drift.at(cell);
-        let fall = match &then {
-            Some((_, pressure)) if pressure[cell] <= 0.0 && last.drift.knows_touch => ENTERED,
-            Some((drift, pressure)) if pressure[cell] > 0.0 => fall(drift.at(cell), here, last.drift.ratio),
-            _ => 0.0,
+    let recent = Recent {
+        region,
+        zones: region.gather_map(&state.zone, |zone| *zone),
+        drift: parts(last.drift.on(cells, region)),
+        ratio: last.drift.ratio,
+        knows_touch: last.drift.knows_touch,
+        then,
+        shear: [0, 1].map(|axis| region.gather(&state.shear[axis])),
+        gaps: before.and_then(|before| Some([before.gap.as_ref()?, &last.gap])),
+    };
+    let was_inside = |[i, j]: [usize; 2]| last.drift.region.is_some_and(|then| then.contains(i, j));
+    let wide =
+        || before.map_or_else(|| TangentialField::zeros(region.len()), |before| beyond(before, &last.drift));
+    let Paths { turn: [x, y], ahead: [ahead_x, ahead_y], touch } =
+        recent.paths(pace, &state.zone, was_inside, || parts(wide()));
+    let (turn, ahead) = (TangentialField { x, y }, TangentialField { x: ahead_x, y: ahead_y });
+    Some(SlipPath { turn, ahead, touch })
+}
+
+impl<R: Scalar + Send + Sync> Recent<'_, R> {
+    /// The paths in the cells of the region, in an increment of a `pace`; `zones` are those of the whole grid.
+    ///
+    /// *Stop.* Cells that slipped; see [`STOP`]. Nothing where slip does not fall, the whole of it where it falls to half, [`ENTERED`]
+    /// of it where a cell has just entered, and nothing where the moment of its touch was not known. *Start.* Cells that stuck; see [`BEGUN`].
+    /// *Entry.* Open cells; see [`Edge`].
+    ///
+    /// `was_inside`: where the drift of the last increment is known; `wide` finds it in the whole region, for cells where it is not.
+    pub fn paths(
+        &self,
+        pace: Pace<R>,
+        grid_zones: &Array2<Zone>,
+        was_inside: impl Fn([usize; 2]) -> bool,
+        wide: impl FnOnce() -> [Vec<R>; 2],
+    ) -> Paths<R> {
+        let Self { region, zones, drift, then, .. } = self;
+        let region = *region;
+        let zeros = || vec![R::of(0.0); region.len()];
+        let mut paths = Paths { turn: [zeros(), zeros()], ahead: [zeros(), zeros()], touch: zeros() };
+        let at = |field: &[Vec<R>; 2], cell: usize| [field[0][cell], field[1][cell]];
+        let set = |field: &mut [Vec<R>; 2], cell: usize, [x, y]: [R; 2]| {
+            (field[0][cell], field[1][cell]) = (x, y);
         };
-        path.go_on(cell, here, (pace.loads, STOP * fall, (slip(cell) / (KNOWN * largest)).min(1.0)));
+        let slip = |cell: usize| length_of(at(drift, cell));
+        let slipping = (0..region.len()).filter(|&cell| zones[cell] == Zone::Slip);
+        let largest = slipping.clone().map(slip).fold(R::of(0.0), larger);
+        for cell in slipping {
+            let here = at(drift, cell);
+            let fall = match then {
+                Some((_, pressure)) if pressure[cell] <= 0.0 && self.knows_touch => R::of(ENTERED),
+                Some((drift, pressure)) if pressure[cell] > 0.0 => fall(at(drift, cell), here, self.ratio),
+                _ => R::of(0.0),
+            };
+            let weight = (slip(cell) / (largest * KNOWN)).min(R::of(1.0));
+            if let Some([turn, ahead]) = path_that_goes_on(here, (pace.loads, fall * STOP, weight)) {
+                set(&mut paths.turn, cell, turn);
+                set(&mut paths.ahead, cell, ahead);
+            }
+        }
+        let held = |cell: usize| at(&self.shear, cell);
+        let largest_shear = (0..region.len()).map(|cell| length_of(held(cell))).fold(R::of(0.0), larger);
+        for cell in (0..region.len()).filter(|&cell| zones[cell] == Zone::Stick) {
+            let shear = held(cell);
+            let weight = (length_of(shear) / (largest_shear * KNOWN)).min(R::of(1.0));
+            if let Some(turn) = turn_that_begins(shear, (BEGUN, weight)) {
+                set(&mut paths.turn, cell, turn);
+            }
+        }
+        let edge = self.gaps.zip(pace.edge).map(|([before, now], ratio)| Edge { before, now, ratio });
+        if let Some(edge) = edge {
+            self.enter((pace, &edge), grid_zones, (was_inside, wide), &mut paths);
+        }
+        paths
     }
-    let shear = [0, 1].map(|axis| region.gather(&state.shear[axis]));
-    let held = |cell: usize| [shear[0][cell], shear[1][cell]];
-    let largest_shear = (0..region.len()).map(|cell| length(held(cell))).fold(0.0, f64::max);
-    for cell in (0..region.len()).filter(|&cell| zones[cell] == Zone::Stick) {
-        let shear = held(cell);
-        path.begin(cell, shear, (BEGUN, (length(shear) / (KNOWN * largest_shear)).min(1.0)));
-    }
-    let edge = before.and_then(|before| {
-        Some((before, Edge { before: before.gap.as_ref()?, now: &last.gap, ratio: pace.edge? }))
-    });
-    if let Some((before, edge)) = edge {
+
+    /// The offsets of open cells, to which the edge comes.
+    fn enter(
+        &self,
+        (pace, edge): (Pace<R>, &Edge<'_, R>),
+        grid_zones: &Array2<Zone>,
+        (was_inside, wide): (impl Fn([usize; 2]) -> bool, impl FnOnce() -> [Vec<R>; 2]),
+        paths: &mut Paths<R>,
+    ) {
+        let Self { region, zones, drift, .. } = self;
         let [_, columns] = region.shape;
         let at = |cell: usize| [region.origin[0] + cell / columns, region.origin[1] + cell % columns];
-        let entering_of = |cells: Range<usize>, _: [&mut [f64]; 0]| -> Vec<(usize, f64)> {
+        let entering_of = |cells: Range<usize>, _: [&mut [f64]; 0]| -> Vec<(usize, R)> {
             cells
                 .filter(|&cell| zones[cell] == Zone::Open)
                 .map(|cell| (cell, edge.moment_of_touch(at(cell))))
-                .filter(|(_, moment)| *moment > 0.0)
+                .filter(|(_, moment)| moment.value() > 0.0)
                 .collect()
         };
         let entering = in_portions((region.len(), NUMBERS), [], &entering_of).concat();
-        let was_inside =
-            |cell: usize| last.drift.region.is_some_and(|then| then.contains(at(cell)[0], at(cell)[1]));
-        let all_inside = entering.iter().all(|(cell, _)| was_inside(*cell));
-        let wide = if all_inside { None } else { Some(beyond(before, &last.drift)) };
+        let all_inside = entering.iter().all(|(cell, _)| was_inside(at(*cell)));
+        let wide = if all_inside { None } else { Some(wide()) };
         let number = |[i, j]: [usize; 2]| (i - region.origin[0]) * columns + j - region.origin[1];
+        let drift_at = |cell: usize| [drift[0][cell], drift[1][cell]];
         let slip_of = |at: [usize; 2]| {
-            if state.zone[at] == Zone::Slip { drift.at(number(at)) } else { [0.0; 2] }
+            if grid_zones[at] == Zone::Slip { drift_at(number(at)) } else { [R::of(0.0); 2] }
         };
-        let mut coming = SlipOfEdge::new(&edge, &state.zone);
+        let mut coming = SlipOfEdge::new(edge, grid_zones);
         for (cell, moment) in entering {
             let touch = moment * pace.loads;
-            let here = wide.as_ref().filter(|_| !was_inside(cell)).unwrap_or(&drift).at(cell);
+            let here = match &wide {
+                Some([x, y]) if !was_inside(at(cell)) => [x[cell], y[cell]],
+                _ => drift_at(cell),
+            };
             let slid = coming.at(at(cell), &slip_of);
             let lag = left_of_lag(touch);
-            let ahead = [0, 1].map(|axis| EDGE * touch * slid[axis] + lag * (here[axis] - slid[axis]));
-            path.ahead.set(cell, ahead);
-            path.touch[cell] = moment;
+            for axis in 0..2 {
+                paths.ahead[axis][cell] = touch * EDGE * slid[axis] + lag * (here[axis] - slid[axis]);
+            }
+            paths.touch[cell] = moment;
         }
     }
-    Some(path)
+}
+
+/// The larger of two numbers, the first where they are the same.
+fn larger<R: Scalar>(one: R, other: R) -> R {
+    if other.value() > one.value() { other } else { one }
 }
 
 /// The edge of contact, on its way outward from a state to the next one and on.
@@ -121,22 +209,22 @@ pub fn slip_path(
 /// A gap grows with the power 3/2 of the distance to the edge of contact: that distance, and with it the moment of touch, is extrapolated
 /// linearly in the normal load from the gaps of the last two states. Up to that moment the cell goes on with the slip of the edge that
 /// comes, see [`EDGE`], and with what it lags behind that, see [`left_of_lag`].
-struct Edge<'a> {
+struct Edge<'a, R> {
     /// Gap before the last increment, and after it [length].
-    before: &'a Array2<f64>,
-    now: &'a Array2<f64>,
+    before: &'a Array2<R>,
+    now: &'a Array2<R>,
     /// Length of the next increment over the last, in the normal load.
-    ratio: f64,
+    ratio: R,
 }
 
-impl Edge<'_> {
+impl<R: Scalar> Edge<'_, R> {
     /// The fraction of the next increment at which it comes to an open cell, 1 at the most; 0 where it does not come nearer.
-    fn moment_of_touch(&self, at: [usize; 2]) -> f64 {
-        if self.before[at] <= self.now[at] {
-            return 0.0;
+    fn moment_of_touch(&self, at: [usize; 2]) -> R {
+        if self.before[at].value() <= self.now[at].value() {
+            return R::of(0.0);
         }
         let [before, now] = [self.before[at], self.now[at]].map(distance);
-        (now / ((before - now) * self.ratio)).min(1.0)
+        (now / ((before - now) * self.ratio)).min(R::of(1.0))
     }
 
     fn neighbours(&self, [i, j]: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
@@ -152,36 +240,38 @@ impl Edge<'_> {
 }
 
 /// Distance of an open cell from the edge of contact, up to a factor.
-fn distance(gap: f64) -> f64 {
-    gap.max(0.0).cbrt().powi(2)
+fn distance<R: Scalar>(gap: R) -> R {
+    let root = gap.max(R::of(0.0)).cube_root();
+    root * root
 }
 
 /// The slip of the edge that comes to an open cell: that of cells in contact, carried outward along the gradient of the distance (extension of
 /// velocities, Adalsteinsson & Sethian 1999). An open cell has the mean of its neighbours that are nearer to the contact, each weighted by
 /// how much nearer it is, so that no choice between equal neighbours is left to rounding; zero where there are none.
-struct SlipOfEdge<'a> {
-    edge: &'a Edge<'a>,
+struct SlipOfEdge<'a, R> {
+    edge: &'a Edge<'a, R>,
     zones: &'a Array2<Zone>,
     /// Distances of open cells from the edge that were found, up to a factor.
-    distances: Array2<f64>,
+    distances: Array2<R>,
     /// Slip that was found.
-    found: Array2<Option<[f64; 2]>>,
+    found: Array2<Option<[R; 2]>>,
     /// Cells that wait for others nearer to the contact.
     waiting: Vec<[usize; 2]>,
 }
 
-impl<'a> SlipOfEdge<'a> {
-    fn new(edge: &'a Edge<'a>, zones: &'a Array2<Zone>) -> Self {
-        let (distances, found) = (Array2::zeros(zones.dim()), Array2::default(zones.dim()));
+impl<'a, R: Scalar> SlipOfEdge<'a, R> {
+    fn new(edge: &'a Edge<'a, R>, zones: &'a Array2<Zone>) -> Self {
+        let distances = Array2::from_elem(zones.dim(), R::of(0.0));
+        let found = Array2::from_elem(zones.dim(), None);
         Self { edge, zones, distances, found, waiting: Vec::new() }
     }
 
     /// At an open cell; `slip_of` a cell in contact [length].
-    fn at(&mut self, at: [usize; 2], slip_of: &impl Fn([usize; 2]) -> [f64; 2]) -> [f64; 2] {
+    fn at(&mut self, at: [usize; 2], slip_of: &impl Fn([usize; 2]) -> [R; 2]) -> [R; 2] {
         let Self { edge, zones, distances, found, waiting } = self;
         let mut height = |at: [usize; 2]| {
             let known = &mut distances[at];
-            if *known == 0.0 && zones[at] == Zone::Open {
+            if known.value() == 0.0 && zones[at] == Zone::Open {
                 *known = distance(edge.now[at]);
             }
             *known
@@ -190,40 +280,41 @@ impl<'a> SlipOfEdge<'a> {
         while let Some(&here) = waiting.last() {
             let ours = height(here);
             let nearer = edge.neighbours(here).map(|next| (next, ours - height(next)));
-            let (mut slid, mut weights, known) = ([0.0; 2], 0.0, waiting.len());
-            for (next, weight) in nearer.filter(|(_, weight)| *weight > 0.0) {
+            let (mut slid, mut weights, known) = ([R::of(0.0); 2], R::of(0.0), waiting.len());
+            for (next, weight) in nearer.filter(|(_, weight)| weight.value() > 0.0) {
                 let there = if zones[next] == Zone::Open { found[next] } else { Some(slip_of(next)) };
                 match there {
                     Some(there) => {
-                        weights += weight;
+                        weights = weights + weight;
                         slid = [0, 1].map(|axis| slid[axis] + weight * there[axis]);
                     }
                     None => waiting.push(next),
                 }
             }
             if waiting.len() == known {
-                let mean = if weights > 0.0 { slid.map(|part| part / weights) } else { slid };
+                let mean = if weights.value() > 0.0 { slid.map(|part| part / weights) } else { slid };
                 found[here] = Some(mean);
                 waiting.pop();
             }
         }
-        found[at].unwrap_or_default()
+        found[at].unwrap_or([R::of(0.0); 2])
     }
 }
 
 /// What an open cell goes on to lag behind the edge until that comes to it, over how it lagged in the last increment: at the distance x from a
 /// contact that moves as a whole the displacement lags by the root of x (Mindlin 1949), so that over the last way, from `1 + touch` steps
 /// of the edge away to `touch`, and over what is left the lags go with the power 3/2.
-fn left_of_lag(touch: f64) -> f64 {
-    let left = touch.powf(1.5);
-    left / ((1.0 + touch).powf(1.5) - left)
+fn left_of_lag<R: Scalar>(touch: R) -> R {
+    let left = touch.power(1.5);
+    left / ((touch + 1.0).power(1.5) - left)
 }
 
 /// By how much slip fell over the last two increments: 0 where it did not, 1 where it fell to half or less. `ratio` of their lengths.
-fn fall(then: [f64; 2], now: [f64; 2], ratio: f64) -> f64 {
+fn fall<R: Scalar>(then: [R; 2], now: [R; 2], ratio: R) -> R {
+    let (zero, one) = (R::of(0.0), R::of(1.0));
     let square = now[0] * now[0] + now[1] * now[1];
     let along = then[0] * now[0] + then[1] * now[1];
-    if square > 0.0 { (along * ratio / square - 1.0).clamp(0.0, 1.0) } else { 0.0 }
+    if square.value() > 0.0 { (along * ratio / square - 1.0).max(zero).min(one) } else { zero }
 }
 
 #[cfg(test)]

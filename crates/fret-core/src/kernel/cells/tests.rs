@@ -1,4 +1,5 @@
 use super::super::closed_form::{CellResponse, homogeneous_cell};
+use super::super::pair_response::PairResponse;
 use super::super::samples::{material, pair};
 use super::*;
 use crate::model::ContactPair;

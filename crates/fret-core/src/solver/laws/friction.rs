@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use ndarray::Array2;
 
-use crate::fields::{CellRule, Reals, each_cell, length, reset};
+use crate::fields::{CellRule, Reals, Scalar, each_cell, length, length_of, reset};
 use crate::model::{CellValues, CoulombFriction};
 
 use super::super::contact_set::ContactSet;
@@ -157,8 +157,8 @@ impl CellRule<3, 2, 0> for CoulombToStrength {
 }
 
 /// Energy that friction takes from a cell that slips, per area: the mean of its bounds before and after the increment, along its way.
-pub fn dissipation([before, after]: [f64; 2], way: f64) -> f64 {
-    0.5 * (before + after) * way
+pub fn dissipation<R: Reals>([before, after]: [R; 2], way: R) -> R {
+    (before + after) * 0.5 * way
 }
 
 /// Slip of a cell until it comes out of contact [length], from its drift [length] in that increment, and its shear and its bound before.
@@ -166,10 +166,11 @@ pub fn dissipation([before, after]: [f64; 2], way: f64) -> f64 {
 /// Its pressure falls to zero, evenly say, until a moment that may be any of the increment: on average half of the drift is slip. It is
 /// along the shear that it had, and where that was below the bound, less in proportion: pressure has to fall first. None where it moves
 /// the other way.
-pub fn slip_until_open(drift: [f64; 2], shear: [f64; 2], bound: f64) -> [f64; 2] {
+pub fn slip_until_open<R: Scalar>(drift: [R; 2], shear: [R; 2], bound: R) -> [R; 2] {
     let along = drift[0] * shear[0] + drift[1] * shear[1];
-    let size = length(shear) * bound;
-    if size > 0.0 && along > 0.0 { shear.map(|part| 0.5 * along / size * part) } else { [0.0; 2] }
+    let size = length_of(shear) * bound;
+    let slides = size.value() > 0.0 && along.value() > 0.0;
+    if slides { shear.map(|part| along * 0.5 / size * part) } else { [R::of(0.0); 2] }
 }
 
 /// Whether a cell slips, in a solution: the shear that would hold it, `q + slip / K`, lies outside the disc, by more than the shear lies

@@ -20,7 +20,7 @@
 //! [`length_of_way`]. The rule is new; its derivation and its measured orders: `docs/theory/second-order.md`.
 
 use super::super::contact_set::ContactSet;
-use crate::fields::{Reals, TangentialField, length};
+use crate::fields::{Reals, Scalar, TangentialField, length, length_of};
 use crate::model::{Integration, Zone};
 
 /// Cosine k of the angle between slip increments (60 degrees) from which on the last one says nothing of this one: the angle from which on the
@@ -54,6 +54,7 @@ impl SlipPath {
     };
 
     /// Paths that go straight from the start of the increment to its end, in so many cells.
+    #[cfg(test)]
     pub fn straight(cells: usize) -> Self {
         let zeros = || TangentialField::zeros(cells);
         Self { turn: zeros(), ahead: zeros(), touch: vec![0.0; cells] }
@@ -64,26 +65,20 @@ impl SlipPath {
         !self.turn.x.is_empty()
     }
 
-    /// A cell goes on from its last slip increment [length], in an increment `ratio` times as long, of which a share `stop` lies before the
-    /// moment at which it may come to rest. `weight`: how far its direction is known, 0 to 1.
+    /// A cell goes on from its last slip increment, see [`path_that_goes_on`].
+    #[cfg(test)]
     pub fn go_on(&mut self, cell: usize, last: [f64; 2], (ratio, stop, weight): (f64, f64, f64)) {
-        let size = length(last);
-        if !(size > 0.0) {
-            return;
+        if let Some([turn, ahead]) = path_that_goes_on(last, (ratio, stop, weight)) {
+            self.turn.set(cell, turn);
+            self.ahead.set(cell, ahead);
         }
-        let kept = (1.0 + ratio) / (1.0 + 2.0 * ratio);
-        let root = (weight / (1.0 - FADED) * (1.0 - kept / (1.0 - stop)).max(0.0)).sqrt();
-        self.turn.set(cell, last.map(|part| part / size * root));
-        self.ahead.set(cell, last.map(|part| part * ratio * stop));
     }
 
-    /// A cell that may begin to slip, held by this shear [pressure]: the angle from that to its slip increment grows by a factor to the
-    /// end. `weight`: how far that direction is known, 0 to 1.
+    /// A cell that may begin to slip, see [`turn_that_begins`].
+    #[cfg(test)]
     pub fn begin(&mut self, cell: usize, shear: [f64; 2], (growth, weight): (f64, f64)) {
-        let size = length(shear);
-        if size > 0.0 {
-            let root = (weight / (1.0 - FADED) * (1.0 - 1.0 / growth)).sqrt();
-            self.turn.set(cell, shear.map(|part| part / size * root));
+        if let Some(turn) = turn_that_begins(shear, (growth, weight)) {
+            self.turn.set(cell, turn);
         }
     }
 
@@ -113,8 +108,7 @@ impl SlipPath {
         if !self.turns() {
             return drift;
         }
-        let (ahead, fraction) = (self.ahead.at(cell), (1.0 - self.touch[cell]).max(LEAST_LEFT));
-        [0, 1].map(|axis| (drift[axis] - ahead[axis]) / fraction)
+        rate_since_touch(drift, self.ahead.at(cell), self.touch[cell])
     }
 
     /// The turn packed over a contact.
@@ -126,29 +120,56 @@ impl SlipPath {
     }
 }
 
+/// Vector t and offset a of a cell that goes on from its last slip increment [length], in an increment `ratio` times as long, of which a share
+/// `stop` lies before the moment at which it may come to rest. `weight`: how far its direction is known, 0 to 1. `None` where that is none.
+pub fn path_that_goes_on<R: Scalar>(last: [R; 2], (ratio, stop, weight): (R, R, R)) -> Option<[[R; 2]; 2]> {
+    let size = length_of(last);
+    if !(size.value() > 0.0) {
+        return None;
+    }
+    let one = R::of(1.0);
+    let kept = (ratio + 1.0) / (ratio * 2.0 + 1.0);
+    let root = (weight / (1.0 - FADED) * (one - kept / (one - stop)).max(R::of(0.0))).sqrt();
+    Some([last.map(|part| part / size * root), last.map(|part| part * ratio * stop)])
+}
+
+/// Vector t of a cell that may begin to slip, held by this shear [pressure]: the angle from that to its slip increment grows by a factor to the
+/// end. `weight`: how far that direction is known, 0 to 1. `None` without shear.
+pub fn turn_that_begins<R: Scalar>(shear: [R; 2], (growth, weight): (f64, R)) -> Option<[R; 2]> {
+    let size = length_of(shear);
+    let root = || (weight / (1.0 - FADED) * (1.0 - 1.0 / growth)).sqrt();
+    (size.value() > 0.0).then(|| shear.map(|part| part / size * root()))
+}
+
+/// Slip of a cell that has come into contact, as of a whole increment at its rate, see [`SlipPath::since_touch`].
+pub fn rate_since_touch<R: Scalar>(drift: [R; 2], ahead: [R; 2], touch: R) -> [R; 2] {
+    let fraction = (R::of(1.0) - touch).max(R::of(LEAST_LEFT));
+    [0, 1].map(|axis| (drift[axis] - ahead[axis]) / fraction)
+}
+
 /// Length of the way of a slip increment, in a run of this integration. At both ends of an increment in which a cell slips the shear points
 /// along the slip: the way is the arc of a circle between these directions, the slip increment its chord. Towards 60 degrees it fades into
 /// the chord, as the turn does; of a cell that sticks at the start or the end, and with end points, it is the chord.
-pub fn length_of_way(
+pub fn length_of_way<R: Scalar>(
     integration: Integration,
-    slip: [f64; 2],
+    slip: [R; 2],
     zones: [Zone; 2],
-    shear: [[f64; 2]; 2],
-) -> f64 {
-    let chord = length(slip);
+    shear: [[R; 2]; 2],
+) -> R {
+    let chord = length_of(slip);
     if integration == Integration::EndPoint || zones != [Zone::Slip; 2] {
         return chord;
     }
     let [before, after] = shear;
     let along = before[0] * after[0] + before[1] * after[1];
-    let across = (before[0] * after[1] - before[1] * after[0]).abs();
-    let angle = across.atan2(along);
-    if angle == 0.0 {
+    let across = (before[0] * after[1] - before[1] * after[0]).size();
+    let angle = across.angle_to(along);
+    if angle.value() == 0.0 {
         return chord;
     }
-    let known = ((angle.cos() - FADED) / (1.0 - FADED)).max(0.0);
-    let arc = 0.5 * angle / (0.5 * angle).sin();
-    chord * (1.0 + known * (arc - 1.0))
+    let known = ((angle.cosine() - FADED) / (1.0 - FADED)).max(R::of(0.0));
+    let arc = angle * 0.5 / (angle * 0.5).sine();
+    chord * (known * (arc - 1.0) + 1.0)
 }
 
 /// The slip at the end of the increment, up to a factor, from the slip less the offset and the vector t.

@@ -4,3 +4,5 @@
 mod active_subdomain;
 mod extrapolation;
 mod self_similar;
+
+pub use extrapolation::pace_of;

@@ -1,0 +1,133 @@
+//! `fret sensitivity`: what the results of a case depend on, and how much: derivatives by the numbers of the case.
+
+use std::fmt::Write;
+
+use fret_core::plan::Plan;
+use fret_core::sensitivity::{Gradient, NearEvents, Request, Sensitivities, SensitivityError, gradient};
+use serde_json::{Map, Value, json};
+
+use crate::arguments::SensitivityArguments;
+use crate::failure::Failure;
+use crate::figures::figure;
+use crate::interrupt::{self, Listener};
+use crate::terminal;
+use crate::threads;
+use fret_results::CaseFile;
+
+/// Letters of a bar for a logarithmic derivative of one.
+const UNIT_BAR: f64 = 10.0;
+/// Letters of a bar at the most.
+const LONGEST_BAR: usize = 30;
+
+/// Derivatives of the results of a case.
+pub fn sensitivity(arguments: &SensitivityArguments, as_json: bool) -> Result<(), Failure> {
+    let plan = CaseFile::asked(&arguments.case)?.planned()?;
+    interrupt::listen();
+    let pool = threads::pool(threads::asked(arguments.threads))?;
+    let of = if arguments.of.is_empty() { usual_results(&plan) } else { arguments.of.clone() };
+    let request = Request { of, by: arguments.by.clone() };
+    let found = pool.install(|| gradient(&plan, &request, &mut Listener)).map_err(refused)?;
+    if as_json { terminal::answer_in_json(&record(&found)) } else { terminal::answer(&table(&found)) }
+}
+
+/// The results that are asked for where nothing is said.
+fn usual_results(plan: &Plan) -> Vec<String> {
+    let of_pressure = ["max_pressure", "approach"];
+    let of_friction = ["max_shear", "dissipated_energy"];
+    let rubs = !plan.case.is_frictionless();
+    let of_friction = of_friction.into_iter().filter(|_| rubs);
+    of_pressure.into_iter().chain(of_friction).map(str::to_owned).collect()
+}
+
+/// A call that is refused, or a run that failed.
+fn refused(error: SensitivityError) -> Failure {
+    match error {
+        SensitivityError::Run(error) => Failure::Unsolved(error),
+        SensitivityError::Parameter { .. } => Failure::Call(
+            error.to_string(),
+            "fret sensitivity CASE without --by lists all numbers of the case by which there are derivatives"
+                .to_owned(),
+        ),
+        other => Failure::Call(other.to_string(), String::new()),
+    }
+}
+
+/// Derivative of the logarithm of a result by that of a parameter; none where one of them is zero.
+fn logarithmic(by: f64, value: f64, parameter: f64) -> Option<f64> {
+    let found = by * parameter / value;
+    (value != 0.0 && parameter != 0.0 && found.is_finite()).then_some(found)
+}
+
+/// The answer for programs: of every result its value, and its derivatives by path.
+fn record(found: &Sensitivities) -> Value {
+    let parameters: Map<String, Value> =
+        found.parameters.iter().map(|entry| (entry.path().to_owned(), json!(entry.value()))).collect();
+    let of = |gradient: &Gradient| {
+        let (mut by, mut logarithms) = (Map::new(), Map::new());
+        for (entry, derivative) in found.parameters.iter().zip(&gradient.by) {
+            by.insert(entry.path().to_owned(), json!(derivative));
+            let found = logarithmic(*derivative, gradient.value, entry.value());
+            logarithms.insert(entry.path().to_owned(), json!(found));
+        }
+        json!({ "value": gradient.value, "derivatives": by, "logarithmic_derivatives": logarithms })
+    };
+    let gradients: Map<String, Value> =
+        found.gradients.iter().map(|gradient| (gradient.of.clone(), of(gradient))).collect();
+    let near = found.near_events.map(
+        |near| json!({ "increment": near.increment, "cells": near.cells, "contact_cells": near.contact }),
+    );
+    json!({ "status": "computed", "parameters": parameters, "of": gradients, "near_a_change_of_state": near })
+}
+
+/// The answer for a person: one table a result, its parameters by the size of their effect.
+fn table(found: &Sensitivities) -> String {
+    let width = found.parameters.iter().map(|entry| entry.path().len()).max().unwrap_or(0).max(9);
+    let mut text = String::new();
+    for gradient in &found.gradients {
+        let _ = writeln!(text, "{} = {}", gradient.of, figure(gradient.value));
+        let _ = writeln!(text, "  {:<width$}  {:>12}  {:>12}", "by", "d ln / d ln", "derivative");
+        let mut rows: Vec<_> = found
+            .parameters
+            .iter()
+            .zip(&gradient.by)
+            .map(|(entry, by)| (entry, *by, logarithmic(*by, gradient.value, entry.value())))
+            .collect();
+        rows.sort_by(|one, other| {
+            let size = |found: Option<f64>| found.map_or(0.0, f64::abs);
+            size(other.2).total_cmp(&size(one.2))
+        });
+        for (entry, by, found) in rows {
+            let shown = found.map_or_else(|| "-".to_owned(), |found| format!("{found:+.5}"));
+            let bar = found.map_or(0, |found| ((found.abs() * UNIT_BAR).round() as usize).min(LONGEST_BAR));
+            let sign = if found.is_some_and(|found| found < 0.0) { "-" } else { "+" };
+            let line =
+                format!("  {:<width$}  {shown:>12}  {:>12}  {}", entry.path(), figure(by), sign.repeat(bar));
+            let _ = writeln!(text, "{}", line.trim_end());
+        }
+        text.push('\n');
+    }
+    text.push_str("d ln / d ln: by how many per cent the result changes when the number changes by one; on the grid of the case");
+    if let Some(NearEvents { increment, cells, contact }) = found.near_events {
+        let _ = write!(
+            text,
+            "\nincrement {increment}: {cells} of {contact} cells are within a millionth of another state (open, stick, slip): derivatives on \
+             either side of the case differ there"
+        );
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn logarithmic_derivatives_are_those_of_powers() {
+        // y = 5 x^-2 at x = 3
+        let (x, y) = (3.0_f64, 5.0 / 9.0);
+        let found = logarithmic(-2.0 * 5.0 / x.powi(3), y, x).unwrap();
+        assert!((found + 2.0).abs() < 1e-15);
+        assert_eq!(logarithmic(1.0, 0.0, 3.0), None);
+        assert_eq!(logarithmic(1.0, 2.0, 0.0), None);
+    }
+}

@@ -1,0 +1,56 @@
+//! Cells that are about to change their state: there the derivatives on either side differ.
+
+use super::cell::Shear;
+use super::scene::{Scene, Solved};
+use super::track::{Known, index};
+use crate::fields::length;
+use crate::model::Zone;
+
+/// How near a cell is to a change, relative to the largest pressure, bound or displacement of the contact.
+const NEAR: f64 = 1e-6;
+
+/// The increment with most cells that are about to change their state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NearEvents {
+    /// Its number, from 0.
+    pub increment: usize,
+    /// How many such cells there are.
+    pub cells: usize,
+    /// How many are in contact.
+    pub contact: usize,
+}
+
+/// Cells of an increment within a millionth of opening, touching, slipping or coming to rest. `own`: influence of a cell on itself, normal and
+/// tangential [length/pressure].
+pub(super) fn near_events(
+    (scene, solved): (&Scene<'_>, &Solved<'_>),
+    known: &Known,
+    own: [f64; 2],
+) -> NearEvents {
+    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+    let pressure = largest(&mut solved.tractions[0].iter().copied());
+    let bound = largest(&mut known.bounds.iter().map(|bound| bound.value));
+    let mut cells = 0;
+    for (number, cell) in solved.contact.cells().enumerate() {
+        let opens = solved.tractions[0][cell] < NEAR * pressure;
+        let shear = [solved.tractions[1][cell], solved.tractions[2][cell]];
+        let here = known.bounds[number].value;
+        let changes = match (solved.zone[index(scene, cell)], known.cells[number].shear) {
+            _ if bound <= 0.0 => false,
+            (Zone::Stick, _) => length(shear) > 0.0 && here - length(shear) < NEAR * bound,
+            (_, Shear::Turns { compliance, .. }) => compliance * here < NEAR * own[1] * bound,
+            _ => false,
+        };
+        cells += usize::from(opens || changes);
+    }
+    let touches = |cell: &usize| {
+        let at = index(scene, *cell);
+        let [x, y] = scene.places[*cell];
+        let [approach, tilt_x, tilt_y, ..] = solved.motions;
+        let deep = approach + tilt_x * x + tilt_y * y;
+        let gap = scene.undeformed[at] + solved.displacements[0][*cell] - deep;
+        solved.zone[at] == Zone::Open && gap < NEAR * own[0] * pressure
+    };
+    cells += (0..scene.region.len()).filter(touches).count();
+    NearEvents { increment: solved.record.increment, cells, contact: solved.contact.len() }
+}

@@ -1,0 +1,434 @@
+//! Exact sensitivities against what they were not computed by: differences of whole runs, dimensional analysis. Closed forms:
+//! `sensitivity_limits.rs`.
+
+use fret_core::case::Case;
+use fret_core::history::{STEP_COLUMNS, StepRecord, Value};
+use fret_core::plan::Plan;
+use fret_core::run::{Silent, Simulation};
+use fret_core::sensitivity::{Request, Sensitivities, SensitivityError, gradient};
+use fret_validation::random::Random;
+
+/// A case with names in angle brackets for its numbers.
+struct Written<'a> {
+    text: &'a str,
+    /// Name, value, path.
+    numbers: &'a [(&'a str, f64, &'a str)],
+}
+
+fn value_of(record: &StepRecord, column: &str) -> f64 {
+    match STEP_COLUMNS.iter().find(|known| known.name == column).unwrap().value {
+        Value::Real(value) => value(record),
+        _ => panic!("{column} is no number"),
+    }
+}
+
+pub fn planned(text: &str) -> Plan {
+    Plan::new(Case::from_toml(text, "case.toml").unwrap_or_else(|error| panic!("{error}\n{text}"))).unwrap()
+}
+
+pub fn found(plan: &Plan, of: &[&str], by: &[&str]) -> Result<Sensitivities, SensitivityError> {
+    let owned = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
+    gradient(plan, &Request { of: owned(of), by: owned(by) }, &mut Silent)
+}
+
+impl Written<'_> {
+    fn plan(&self, moved: Option<(usize, f64)>) -> Plan {
+        let mut text = self.text.to_owned();
+        for (number, (name, value, _)) in self.numbers.iter().enumerate() {
+            let factor = moved.filter(|(which, _)| *which == number).map_or(1.0, |(_, by)| 1.0 + by);
+            text = text.replace(&format!("<{name}>"), &format!("{:e}", value * factor));
+        }
+        planned(&text)
+    }
+
+    fn columns(&self, columns: &[&str], moved: Option<(usize, f64)>) -> Vec<Vec<f64>> {
+        let plan = self.plan(moved);
+        let history = Simulation::new(&plan).run(&mut Silent).unwrap();
+        let of = |record| columns.iter().map(|column| value_of(record, column)).collect();
+        history.steps.iter().map(of).collect()
+    }
+
+    /// Largest difference of any derivative in any increment from the central difference of runs, over the largest value of the column and
+    /// the derivative.
+    fn worst(&self, columns: &[&str]) -> f64 {
+        // With a step so small hardly any cell changes its state; a tolerance of 1e-11 leaves 1e-6 of noise.
+        const STEP: f64 = 1e-5;
+        let plan = self.plan(None);
+        let steps = self.columns(columns, None);
+        let names: Vec<String> = (0..steps.len())
+            .flat_map(|increment| {
+                columns.iter().map(move |column| format!("increments[{increment}].{column}"))
+            })
+            .collect();
+        let of: Vec<&str> = names.iter().map(String::as_str).collect();
+        let by: Vec<&str> = self.numbers.iter().map(|(_, _, path)| *path).collect();
+        let found = found(&plan, &of, &by).unwrap();
+        let mut worst = 0.0_f64;
+        for (number, (name, value, _)) in self.numbers.iter().enumerate() {
+            let [up, down] = [STEP, -STEP].map(|step| self.columns(columns, Some((number, step))));
+            for (place, column) in columns.iter().enumerate() {
+                let size = steps.iter().fold(0.0_f64, |most, step| most.max(step[place].abs()));
+                for (increment, step) in steps.iter().enumerate() {
+                    let expected = (up[increment][place] - down[increment][place]) / (2.0 * STEP);
+                    let gradient = &found.gradients[increment * columns.len() + place];
+                    let found = gradient.by[number] * value;
+                    let off = (found - expected).abs() / (size + expected.abs()).max(f64::MIN_POSITIVE);
+                    if off > 1e-5 {
+                        println!(
+                            "increment {increment}, {column} by {name}: {found:e}, difference {expected:e}"
+                        );
+                    }
+                    worst = worst.max(off);
+                    assert_eq!(gradient.value, step[place]);
+                }
+            }
+        }
+        println!("worst {worst:.1e}");
+        worst
+    }
+}
+
+pub const SIMILAR: &str = r#"
+[grid]
+cells = [32, 32]
+size = [320e-6, 320e-6]
+[upper]
+rigid = true
+[lower]
+substrate = { young = <E>, poisson = 0.5 }
+[profile.sphere]
+radius = <R>
+[friction]
+coefficient = <mu>
+[solver]
+tolerance = 1e-11
+[[load]]
+normal_force = <P>
+increments = 3
+[[load]]
+tangential_force = [<Q>, 0.0]
+cycles = 1
+increments = 8
+"#;
+
+const NUMBERS: [(&str, f64, &str); 5] = [
+    ("R", 10e-3, "profile.sphere.radius"),
+    ("mu", 0.3, "friction.coefficient"),
+    ("P", 12.0, "load[0].normal_force"),
+    ("Q", 2.5, "load[1].tangential_force[0]"),
+    ("E", 210e9, "lower.substrate.young"),
+];
+
+const COLUMNS: [&str; 10] = [
+    "normal_force",
+    "approach",
+    "shift_x",
+    "tangential_force_x",
+    "max_pressure",
+    "max_shear",
+    "dissipated_energy",
+    "elastic_energy",
+    "external_work",
+    "unresolved_energy",
+];
+
+// The tolerance of all comparisons with differences, 1e-5, is that of their noise and of what a rare change of a cell adds.
+
+#[test]
+fn a_loop_of_similar_bodies_is_differentiated() {
+    assert!(Written { text: SIMILAR, numbers: &NUMBERS }.worst(&COLUMNS) < 1e-5);
+}
+
+#[test]
+fn a_loop_of_dissimilar_bodies_is_differentiated_by_both_rules() {
+    for integration in ["end_point", "second_order"] {
+        let rule = format!("tolerance = 1e-11\nintegration = \"{integration}\"");
+        let text = SIMILAR.replace("poisson = 0.5", "poisson = 0.2").replace("tolerance = 1e-11", &rule);
+        assert!(Written { text: &text, numbers: &NUMBERS }.worst(&COLUMNS) < 1e-5, "{integration}");
+    }
+}
+
+const COATED: &str = r#"
+[grid]
+cells = [24, 24]
+size = [3.0, 3.0]
+[upper]
+substrate = { young = <Eu>, poisson = <nu> }
+[lower]
+coatings = [
+  { thickness = <h1>, young = <E1>, poisson = <n1> },
+  { thickness = <h2>, young = <E2>, poisson = 0.25, interface = { shear_stiffness = <ks> } },
+]
+substrate = { young = <E3>, poisson = 0.3 }
+[profile.ellipsoid]
+radius_x = <Rx>
+radius_y = <Ry>
+[friction]
+coefficient = <mu>
+[solver]
+tolerance = 1e-11
+[[load]]
+normal_force = <P>
+tangential_force = [<Q>, 0.01]
+increments = 5
+ramp = "cubic"
+[[load]]
+shift = [<dx>, <dy>]
+increments = 3
+[[load]]
+normal_force = <P2>
+shift = [0.0, 0.0]
+increments = 3
+"#;
+
+const COATED_NUMBERS: [(&str, f64, &str); 17] = [
+    ("Eu", 5.0, "upper.substrate.young"),
+    ("nu", 0.2, "upper.substrate.poisson"),
+    ("h1", 0.3, "lower.coatings[0].thickness"),
+    ("E1", 3.0, "lower.coatings[0].young"),
+    ("n1", 0.35, "lower.coatings[0].poisson"),
+    ("h2", 0.5, "lower.coatings[1].thickness"),
+    ("E2", 0.7, "lower.coatings[1].young"),
+    ("ks", 4.0, "lower.coatings[1].interface.shear_stiffness"),
+    ("E3", 1.0, "lower.substrate.young"),
+    ("Rx", 4.0, "profile.ellipsoid.radius_x"),
+    ("Ry", 6.0, "profile.ellipsoid.radius_y"),
+    ("mu", 0.25, "friction.coefficient"),
+    ("P", 0.15, "load[0].normal_force"),
+    ("Q", 0.02, "load[0].tangential_force[0]"),
+    ("dx", 0.02, "load[1].shift[0]"),
+    ("dy", 0.015, "load[1].shift[1]"),
+    ("P2", 0.1, "load[2].normal_force"),
+];
+
+/// A history without any symmetry: two coatings on a spring, forces that grow together, slip that turns, a load that falls.
+#[test]
+fn a_history_of_coated_bodies_is_differentiated_by_all_its_numbers() {
+    assert!(Written { text: COATED, numbers: &COATED_NUMBERS }.worst(&COLUMNS) < 1e-5);
+}
+
+/// Young's moduli, stiffnesses and forces together have no effect on lengths: the sum of their logarithmic derivatives is one of a pressure, a force
+/// or an energy, none of a length. 1e-8: the linear equations and the run.
+#[test]
+fn moduli_and_forces_are_one_dimension() {
+    let written = Written { text: COATED, numbers: &COATED_NUMBERS };
+    let forces = [
+        "upper.substrate.young",
+        "lower.coatings[0].young",
+        "lower.coatings[1].young",
+        "lower.coatings[1].interface.shear_stiffness",
+        "lower.substrate.young",
+        "load[0].normal_force",
+        "load[0].tangential_force[0]",
+        "load[0].tangential_force[1]",
+        "load[2].normal_force",
+    ];
+    let shear = "lower.coatings[1].interface.shear_stiffness";
+    assert!(forces.contains(&shear)); // [pressure/length]: of the dimension of a force, too
+    let found = found(&written.plan(None), &COLUMNS, &forces).unwrap();
+    for gradient in &found.gradients {
+        let parts = gradient.by.iter().zip(&found.parameters);
+        let sum: f64 = parts.map(|(by, parameter)| by * parameter.value()).sum();
+        let lengths = ["approach", "shift_x"];
+        let power = if lengths.contains(&gradient.of.as_str()) { 0.0 } else { 1.0 };
+        let size = gradient.value.abs().max(if gradient.of == "shift_x" { 0.02 } else { 0.0 });
+        let off = (sum - power * gradient.value).abs() / size;
+        println!("{} {off:.1e}", gradient.of);
+        assert!(off < 1e-7, "{}: {sum} {} {off:.1e}", gradient.of, gradient.value);
+    }
+}
+
+/// A random history: one or two layers on a substrate under an elastic or rigid body, forces and motions in two stages; with the paths of all
+/// its moduli and forces.
+fn random_history(random: &mut Random) -> (String, Vec<String>) {
+    let mut forces = vec!["load[0].normal_force".to_owned(), "lower.substrate.young".to_owned()];
+    let mut coatings = Vec::new();
+    for index in 0..random.whole(1, 2) {
+        let [young, poisson] = [random.log_uniform(0.3, 5.0), random.between(0.0, 0.45)];
+        coatings.push(format!(
+            "{{ thickness = {:e}, young = {young:e}, poisson = {poisson:e} }}",
+            random.log_uniform(0.1, 1.0)
+        ));
+        forces.push(format!("lower.coatings[{index}].young"));
+    }
+    let upper = if random.whole(0, 1) == 0 {
+        "rigid = true".to_owned()
+    } else {
+        forces.push("upper.substrate.young".to_owned());
+        format!("substrate = {{ young = {:e}, poisson = 0.25 }}", random.log_uniform(0.5, 5.0))
+    };
+    let friction = random.log_uniform(0.1, 0.6);
+    let normal = 0.05;
+    let [x, y] = [random.between(-0.5, 0.5), random.between(-0.5, 0.5)];
+    let rub = if random.whole(0, 1) == 0 {
+        forces.extend([0, 1].map(|axis| format!("load[1].tangential_force[{axis}]")));
+        format!("tangential_force = [{:e}, {:e}]", friction * normal * x, friction * normal * y)
+    } else {
+        format!("shift = [{:e}, {:e}]", 0.03 * friction * x, 0.03 * friction * y)
+    };
+    let text = format!(
+        "[grid]\ncells = [16, 16]\nsize = [2.4, 2.4]\n[upper]\n{upper}\n[lower]\ncoatings = [{}]\nsubstrate = {{ young = 1.0, \
+         poisson = 0.3 }}\n[profile.sphere]\nradius = 4.0\n[friction]\ncoefficient = {friction:e}\n[solver]\ntolerance = 1e-10\n\
+         [[load]]\nnormal_force = {normal:e}\nincrements = 3\n[[load]]\n{rub}\nincrements = {}\ncycles = 1\n",
+        coatings.join(", "),
+        4 * random.whole(1, 2)
+    );
+    (text, forces)
+}
+
+/// Euler's identity of pressures, energies and lengths in so many random histories.
+fn dimensions_of_random_histories(seed: u64, count: usize) {
+    let mut random = Random::seeded(seed);
+    let columns = [("max_pressure", 1.0), ("approach", 0.0), ("max_shear", 1.0), ("dissipated_energy", 1.0)];
+    let mut solved = 0;
+    for case in 0..count {
+        let (text, forces) = random_history(&mut random);
+        let names: Vec<&str> = forces.iter().map(String::as_str).collect();
+        let found = match found(&planned(&text), &columns.map(|(column, _)| column), &names) {
+            Ok(found) => found,
+            Err(SensitivityError::Parts { .. }) => continue,
+            Err(error) => panic!("case {case}: {error}\n{text}"),
+        };
+        solved += 1;
+        let scale = found.gradients[3].value;
+        for (gradient, (column, power)) in found.gradients.iter().zip(columns) {
+            let parts = gradient.by.iter().zip(&found.parameters);
+            let sum: f64 = parts.map(|(by, parameter)| by * parameter.value()).sum();
+            // Energies so small that the run itself leaves no digits of them say nothing.
+            let size = gradient.value.abs().max(if column == "dissipated_energy" { 1e-9 } else { 0.0 });
+            let off = (sum - power * gradient.value).abs() / size;
+            assert!(off < 1e-6, "case {case}, {column}: {sum} {} ({scale})\n{text}", gradient.value);
+        }
+    }
+    assert!(solved * 10 > count * 9, "{solved} of {count}");
+}
+
+#[test]
+fn moduli_and_forces_are_one_dimension_in_random_histories() {
+    dimensions_of_random_histories(41, 25);
+}
+
+#[test]
+#[ignore = "long: five hundred random histories"]
+fn moduli_and_forces_are_one_dimension_in_five_hundred_histories() {
+    dimensions_of_random_histories(42, 500);
+}
+
+/// Torsion beside a force, a body that tilts under a moment, a machine that gives, a shear strength, a stage with friction of its own, a
+/// force that turns.
+#[test]
+fn controls_and_laws_of_every_kind_are_differentiated() {
+    let body = |grid: &str, rest: &str| {
+        format!(
+            "[grid]\ncells = {grid}\nsize = [3.0, 3.0]\n[upper]\nrigid = true\n[lower]\ncoatings = [{{ thickness = 0.4, young = <E>, \
+             poisson = 0.3 }}]\nsubstrate = {{ young = 1.0, poisson = 0.3 }}\n[profile.sphere]\nradius = 5.0\n[solver]\n\
+             tolerance = 1e-11\n[friction]\ncoefficient = <mu>\n{rest}"
+        )
+    };
+    let common = [("E", 2.0, "lower.coatings[0].young"), ("mu", 0.3, "friction.coefficient")];
+    let with = |more: &[(&'static str, f64, &'static str)]| [&common[..], more].concat();
+    let cases = [
+        (
+            "max_shear = <tau>\n[[load]]\nnormal_force = 0.15\nincrements = 4\n[[load]]\ntwist_moment = <M>\n\
+             tangential_force = [<Q>, 0.0]\nincrements = 4\n",
+            with(&[
+                ("tau", 0.04, "friction.max_shear"),
+                ("M", 0.008, "load[1].twist_moment"),
+                ("Q", 0.01, "load[1].tangential_force[0]"),
+            ]),
+            vec![
+                "shift_x",
+                "twist",
+                "dissipated_energy",
+                "max_shear",
+                "external_work",
+                "tangential_force_x",
+                "twist_moment",
+            ],
+        ),
+        (
+            "[[load]]\nnormal_force = 0.15\ntilt_moment = [<M>, 0.0]\nincrements = 3\n[[load]]\nshift = [0.01, <dy>]\n\
+             twist = <phi>\nincrements = 3\n",
+            with(&[
+                ("M", 0.004, "load[0].tilt_moment[0]"),
+                ("dy", 0.012, "load[1].shift[1]"),
+                ("phi", 0.004, "load[1].twist"),
+            ]),
+            vec![
+                "approach",
+                "tilt_x",
+                "tilt_moment_x",
+                "tangential_force_y",
+                "twist_moment",
+                "dissipated_energy",
+                "external_work",
+            ],
+        ),
+        (
+            "[rig]\ntangential_stiffness = <k>\nnormal_stiffness = <kn>\n[[load]]\nactuator_approach = <a>\nincrements = 4\n[[load]]\n\
+             actuator = [<d>, 0.0]\nincrements = 8\ncycles = 1\n[[load]]\nfriction = <mu2>\nactuator = [0.02, 0.0]\nincrements = 2\n",
+            with(&[
+                ("k", 1.5, "rig.tangential_stiffness"),
+                ("kn", 2.0, "rig.normal_stiffness"),
+                ("a", 0.16, "load[0].actuator_approach"),
+                ("d", 0.03, "load[1].actuator[0]"),
+                ("mu2", 0.4, "load[2].friction"),
+            ]),
+            vec![
+                "approach",
+                "normal_force",
+                "actuator_approach",
+                "shift_x",
+                "actuator_x",
+                "tangential_force_x",
+                "dissipated_energy",
+                "unresolved_energy",
+            ],
+        ),
+        (
+            "[[load]]\nnormal_force = 0.15\nincrements = 4\n[[load]]\ntangential_force = [<Q>, 0.0]\nincrements = 2\n[[load]]\n\
+             tangential_force = [<Q2>, <Q3>]\nphase = { tangential_force = [90, 0] }\nwaveform = \"sine\"\nincrements = 16\ncycles = 1\n",
+            with(&[
+                ("Q", 0.03, "load[1].tangential_force[0]"),
+                ("Q2", 0.03, "load[2].tangential_force[0]"),
+                ("Q3", 0.03, "load[2].tangential_force[1]"),
+            ]),
+            vec!["shift_x", "shift_y", "dissipated_energy", "max_shear"],
+        ),
+    ];
+    for (number, (rest, numbers, columns)) in cases.iter().enumerate() {
+        println!("case {number}");
+        let text = body("[24, 24]", rest);
+        assert!(Written { text: &text, numbers }.worst(columns) < 1e-5, "case {number}");
+    }
+}
+
+/// Line contacts, periodic waves, and normal force that falls and grows under a tangential one.
+#[test]
+fn lines_and_periods_are_differentiated() {
+    let line = "[grid]\ncells = 64\nsize = 3.0\n[upper]\nrigid = true\n[lower]\nsubstrate = { young = 1.0, poisson = 0.2 }\n\
+                [profile.cylinder]\nradius = <R>\naxis = \"y\"\n[friction]\ncoefficient = <mu>\n[solver]\ntolerance = 1e-11\n\
+                [[load]]\nnormal_force = <P>\nincrements = 4\n[[load]]\ntangential_force = [<Q>, 0.0]\nnormal_force = 0.05\n\
+                increments = 8\ncycles = 1\n";
+    let numbers = [
+        ("R", 5.0, "profile.cylinder.radius"),
+        ("mu", 0.3, "friction.coefficient"),
+        ("P", 0.2, "load[0].normal_force"),
+        ("Q", 0.04, "load[1].tangential_force[0]"),
+    ];
+    let columns = ["approach", "max_pressure", "shift_x", "dissipated_energy"];
+    assert!(Written { text: line, numbers: &numbers }.worst(&columns) < 1e-5);
+    let period = "[grid]\ncells = [24, 24]\nsize = [2.0, 2.0]\nperiodic = true\n[upper]\nrigid = true\n[lower]\n\
+                  coatings = [{ thickness = <h>, young = <E>, poisson = 0.3 }]\nbase = \"rigid\"\n[profile.wave]\namplitude = <a>\n\
+                  wavelength_x = 2.0\nwavelength_y = 2.0\n[friction]\ncoefficient = <mu>\n[solver]\ntolerance = 1e-11\n[[load]]\n\
+                  normal_force = <P>\nincrements = 3\n[[load]]\nshift = [0.01, 0.0]\nincrements = 3\n";
+    let numbers = [
+        ("h", 0.7, "lower.coatings[0].thickness"),
+        ("E", 2.0, "lower.coatings[0].young"),
+        ("a", 0.05, "profile.wave.amplitude"),
+        ("mu", 0.3, "friction.coefficient"),
+        ("P", 0.1, "load[0].normal_force"),
+    ];
+    let columns = ["approach", "max_pressure", "tangential_force_x", "dissipated_energy"];
+    assert!(Written { text: period, numbers: &numbers }.worst(&columns) < 1e-5);
+}
