@@ -314,7 +314,11 @@ def _solve(task: _Task, point: tuple[_core.InCommon, int] | None = None) -> _Sol
         **nothing,
         "status": "solved",
         "error": "",
-        "steps": {name: column[rows].tolist() for name, column in history.increments.items()},
+        "steps": {
+            name: column[rows].tolist()
+            for name, column in history.increments.items()
+            if (column == column).all()  # not a number: there is none
+        },
         "cycle": {
             name: column[-1].item()
             for name, column in history.cycles.items()
