@@ -83,6 +83,16 @@ fn the_force_that_a_mean_gap_needs_leaves_that_mean_gap() {
 }
 
 #[test]
+fn a_cycle_that_would_close_the_gap_ends_the_run() {
+    let text = format!(
+        "{WAVE}[[load]]\nmean_gap = 6e-3\nincrements = 1\n[[load]]\nmean_gap = 7e-3\ncycles = 1\nincrements = 4\n"
+    );
+    let plan = Plan::new(case(&text, "").unwrap()).unwrap();
+    let error = Simulation::new(&plan).run(&mut Silent).unwrap_err();
+    assert!(error.to_string().contains("the surfaces touch everywhere"), "{error}");
+}
+
+#[test]
 fn a_mean_gap_is_prescribed_by_a_table_too() {
     let text = format!("{WAVE}[[load]]\ntable = \"gaps.csv\"\nincrements = 1\n");
     let plan = Plan::new(case(&text, "mean_gap\n8e-3\n6e-3\n").unwrap()).unwrap();

@@ -317,7 +317,7 @@ def _solve(task: _Task, point: tuple[_core.InCommon, int] | None = None) -> _Sol
         "steps": {
             name: column[rows].tolist()
             for name, column in history.increments.items()
-            if (column == column).all()  # not a number: there is none
+            if (column[rows] == column[rows]).all()  # not a number: there is none
         },
         "cycle": {
             name: column[-1].item()

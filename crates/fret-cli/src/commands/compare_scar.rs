@@ -146,9 +146,9 @@ impl Answer<'_> {
         })
     }
 
-    /// Wear volume of the run, at the increment.
+    /// Wear volume of the scar.
     fn volume(&self) -> f64 {
-        self.run.table.at("worn_volume", self.worn.increment)
+        self.worn.depth.sum() * self.run.grid().cell_area()
     }
 
     fn csv(&self) -> String {
@@ -191,11 +191,9 @@ impl Answer<'_> {
         for pair in &found.numbers {
             let Pair { name, kind, computed, measured } = pair;
             let [computed, measured] = [computed, measured].map(|value| figure_in(units, *value, kind));
-            let _ = writeln!(
-                text,
-                "  {name:<8} {computed:<18} {measured:<18} {:+.1} %",
-                100.0 * pair.difference()
-            );
+            let difference =
+                pair.difference().map_or_else(|| "-".to_owned(), |part| format!("{:+.1} %", 100.0 * part));
+            let _ = writeln!(text, "  {name:<8} {computed:<18} {measured:<18} {difference}");
         }
         let length = |value: f64| figure_in(units, value, "length");
         let kind_of_volume = if self.run.grid().is_line() { "length^2" } else { "length^3" };

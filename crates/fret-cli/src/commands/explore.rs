@@ -26,6 +26,6 @@ pub fn explore(arguments: &ExploreArguments, as_json: bool) -> Result<(), Failur
     } else {
         terminal::answer(&format!("open {}\nCtrl-C ends it", server.address()))?;
     }
-    server.serve(Solver::new(question, pool));
+    server.serve(Solver::new(question, pool))?;
     Ok(())
 }

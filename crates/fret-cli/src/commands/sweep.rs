@@ -237,9 +237,14 @@ impl<'a> Board<'a> {
                 if !asks {
                     return Ok(answer);
                 }
-                match self.besides(&folder.beside(point), point, &plan, &history) {
-                    Err(failure) if is_no_answer(&failure) => Err(failure),
-                    more => Ok(answer.asked(more)),
+                // A mistake of the program in what is asked besides costs the point nothing of what was solved.
+                let more = AssertUnwindSafe(|| self.besides(&folder.beside(point), point, &plan, &history));
+                match catch_unwind(more) {
+                    Err(_) => {
+                        Ok(answer.asked(Err(Failure::Defect(format!("point {number} ended in a panic")))))
+                    }
+                    Ok(Err(failure)) if is_no_answer(&failure) => Err(failure),
+                    Ok(more) => Ok(answer.asked(more)),
                 }
             };
             let answer = match catch_unwind(AssertUnwindSafe(|| pool.install(solve))) {

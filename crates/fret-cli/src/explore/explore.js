@@ -28,10 +28,14 @@ const post = async (what, question) => {
 const trouble = (words) => {
   by("trouble").textContent = words;
   by("trouble").hidden = !words;
-  document.querySelector(".seen .figures").classList.toggle("stale", Boolean(words));
+  for (const part of [document.querySelector(".seen .figures"), by("numbers")]) part.classList.toggle("stale", Boolean(words));
 };
-const put = (answer) => {
-  if (answer.status === "superseded") return false;
+const failed = (error) => trouble(error instanceof TypeError
+  ? "fret explore has ended: start it again for another page."
+  : `This was not answered: ${error.message}. "As in the case" starts again.`);
+const cards = (of) => by("numbers").querySelectorAll(`[data-of="${of}"]`);
+// What a question of a kind has told: its figures and numbers take the place of those before.
+const put = (answer, of) => {
   if (answer.status !== "solved") {
     trouble(answer.message);
     return false;
@@ -46,12 +50,16 @@ const put = (answer) => {
     if (!card) {
       card = document.createElement("div");
       card.id = "card-" + id;
+      card.dataset.of = of;
       card.append(document.createElement("dt"), document.createElement("dd"));
       by("numbers").append(card);
     }
+    card.classList.remove("stale");
     card.firstChild.textContent = name;
     card.lastChild.textContent = value;
   }
+  const told = answer.numbers.map(([id]) => "card-" + id);
+  for (const card of cards(of)) if (!told.includes(card.id)) card.remove();
   return true;
 };
 
@@ -62,10 +70,12 @@ async function next() {
       const question = waiting;
       waiting = null;
       const answer = await post("solve", question);
-      if (!put(answer)) continue;
+      if (answer.status === "superseded") { waiting ??= question; continue; }
+      if (!put(answer, "solve")) continue;
       for (const name of ["zones", "pressure", "section"]) if (!(name in answer.figures)) by("figure-" + name).hidden = true;
       by("moment").max = answer.moments - 1;
-      by("moment").value = answer.moment;
+      if (document.activeElement !== by("moment")) by("moment").value = answer.moment;
+      by("moment").setAttribute("aria-valuetext", `${answer.moment + 1} of ${answer.moments}`);
       const now = performance.now();
       drawn.push(now);
       while (drawn[0] < now - 1000) drawn.shift();
@@ -73,14 +83,14 @@ async function next() {
     }
     clearTimeout(resting);
     resting = setTimeout(rest, 150);
-  } catch {
-    trouble("fret explore has ended: start it again for another page.");
+  } catch (error) {
+    failed(error);
   }
   busy = false;
 }
 const ask = () => {
   waiting = asked();
-  by("stress").classList.add("stale");
+  for (const part of [by("stress"), ...cards("stress")]) part.classList.add("stale");
   if (!busy) next();
 };
 // The stress below takes longer, and is asked for when the sliders rest.
@@ -90,16 +100,18 @@ async function rest() {
   const now = JSON.stringify(question);
   try {
     const answer = await post("stress", question);
-    if (now === JSON.stringify(asked()) && put(answer)) by("stress").classList.remove("stale");
-  } catch {
-    trouble("fret explore has ended: start it again for another page.");
+    if (answer.status === "superseded") { resting = setTimeout(rest, 150); return; }
+    if (now === JSON.stringify(asked()) && put(answer, "stress")) by("stress").classList.remove("stale");
+  } catch (error) {
+    failed(error);
   }
 }
 
 setting.sliders.forEach((slider, place) => {
   const [range, number] = [by("slider-" + place), by("number-" + place)];
   const show = (value) => {
-    range.value = Math.round(STEPS * part(slider, value));
+    const place = part(slider, value);
+    range.value = Math.round(STEPS * Math.min(Math.max(Number.isFinite(place) ? place : 0, 0), 1));
     range.setAttribute("aria-valuetext", printed(value) + (slider.unit ? " " + slider.unit : ""));
     number.value = printed(value);
     range.parentElement.classList.toggle("moved", value !== slider.value);
@@ -132,7 +144,11 @@ by("reset").addEventListener("click", () => {
 });
 const write = async (written, name) => {
   let answer;
-  do answer = await post("case", { ...asked(), written }); while (answer.status === "superseded");
+  try {
+    do answer = await post("case", { ...asked(), written }); while (answer.status === "superseded");
+  } catch (error) {
+    return failed(error);
+  }
   if (answer.status !== "written") return trouble(answer.message);
   const link = document.createElement("a");
   link.href = URL.createObjectURL(new Blob([answer.text], { type: "text/plain" }));

@@ -58,7 +58,7 @@ pub fn page(question: &Question) -> String {
                 @if !question.notes.is_empty() { p class="small" { "Solved here with " (question.notes.join("; ")) "." } }
             }
             div class="seen" {
-                p class="warning" id="trouble" hidden {}
+                p class="warning" id="trouble" role="alert" hidden {}
                 dl class="cards" id="numbers" {}
                 label class="moment-of" { "Where on the loop" input type="range" id="moment" min="0" max="0" value="0" step="1"; }
                 div class="figures" {

@@ -68,17 +68,35 @@ impl Question {
         let mut notes = Vec::new();
         let mut coarse = own.clone();
         coarsen(&mut coarse, &plan, i64::from(cells), &mut notes);
-        shorten(&mut coarse, &mut notes);
-        for part in ["wear", "stress", "thermal", "output"] {
-            if coarse.remove(part).is_some() && part == "wear" {
-                notes.push("wear is not followed here".to_owned());
+        if plan.case.rolls() {
+            return Err(Failure::Call(
+                format!("{}: a contact that rolls needs its many increments", file.name()),
+                "fret run, and fret report of its folder".to_owned(),
+            ));
+        }
+        shorten(&mut coarse, &plan, &mut notes);
+        for (part, note) in [
+            ("wear", "no wear"),
+            ("stress", "stress below the middle alone"),
+            ("thermal", "no heat"),
+            ("output", ""),
+        ] {
+            if coarse.remove(part).is_some() && !note.is_empty() {
+                notes.push(note.to_owned());
             }
         }
         coarse.insert(
             "output".to_owned(),
             "every = 1\nfields = ['pressure', 'shear', 'zone']".parse::<Table>().unwrap_or_default().into(),
         );
-        let sliders = sliders(&own);
+        let (sliders, more) = sliders(&own);
+        if more > 0 {
+            notes.push(format!(
+                "the first {} numbers that can be moved, of {}",
+                sliders.len(),
+                sliders.len() + more
+            ));
+        }
         let (units, is_line) = (plan.case.units.clone(), plan.grid.is_line());
         let mut question = Self {
             units,
@@ -109,6 +127,7 @@ impl Question {
         if let Ok(plan) = self.file(&automatic).planned() {
             self.size = Some(plan.grid.size());
             self.coarse = automatic;
+            self.notes.push("a grid that follows the contact".to_owned());
         }
     }
 
@@ -133,13 +152,17 @@ impl Question {
         let plan = file.planned()?;
         let Some(size) = self.size else { return Ok((file, plan)) };
         let mut sized = table;
-        let grown = plan.grid.size()[0] / size[0];
-        let factor = STEP.powf((grown.ln() / STEP.ln() - 1e-9).ceil());
-        let sides = if plan.grid.is_line() {
-            Value::Float(factor * size[0])
-        } else {
-            Value::Array(size.iter().map(|side| Value::Float(factor * side)).collect())
-        };
+        let sides: Vec<Value> = plan
+            .grid
+            .size()
+            .iter()
+            .zip(size)
+            .map(|(now, side)| {
+                let steps = ((now / side).ln() / STEP.ln() - 1e-9).ceil();
+                Value::Float(STEP.powf(steps) * side)
+            })
+            .collect();
+        let sides = if plan.grid.is_line() { sides[0].clone() } else { Value::Array(sides) };
         put(&mut sized, "grid.size", &sides).map_err(Failure::Defect)?;
         let file = self.file(&sized);
         // where the step is too far for the shape of the body, the size is the plan's own
@@ -213,20 +236,27 @@ fn coarsen(case: &mut Table, plan: &Plan, most: i64, notes: &mut Vec<String>) {
 }
 
 /// No more cycles and increments than show a steady loop.
-fn shorten(case: &mut Table, notes: &mut Vec<String>) {
+fn shorten(case: &mut Table, plan: &Plan, notes: &mut Vec<String>) {
     let Some(stages) = case.get_mut("load").and_then(Value::as_array_mut) else { return };
     let number = |stage: &Table, key: &str| stage.get(key).and_then(Value::as_integer).unwrap_or(0);
     let mut fewer = false;
-    for stage in stages.iter_mut().filter_map(Value::as_table_mut) {
+    for (stage, planned) in stages.iter_mut().filter_map(Value::as_table_mut).zip(&plan.case.stages) {
         let cycles = number(stage, "cycles");
         if cycles > MOST_CYCLES {
             notes.push(format!("{MOST_CYCLES} of {cycles} cycles"));
             stage.insert("cycles".to_owned(), Value::Integer(MOST_CYCLES));
         }
         let most = MOST_INCREMENTS[usize::from(cycles > 0)];
-        if number(stage, "increments") > most {
-            stage.insert("increments".to_owned(), Value::Integer(most));
-            fewer = true;
+        // By the plan: those of a table are counted by row, and those of "auto" are the program's.
+        let increments = planned.increments as i64;
+        let rows =
+            if stage.contains_key("table") { increments / number(stage, "increments").max(1) } else { 1 };
+        if increments > most {
+            stage.insert("increments".to_owned(), Value::Integer((most / rows).max(1)));
+            fewer |= rows == 1;
+        }
+        if rows > most {
+            notes.push(format!("{rows} rows of a table, each in one increment"));
         }
     }
     if fewer {

@@ -4,7 +4,7 @@
 use std::io::Read;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::{Condvar, Mutex, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::Duration;
 
 use serde_json::{Value, json};
@@ -31,6 +31,12 @@ const HEADERS: [(&str, &str); 4] = [
 /// A place on this machine where a case can be played with.
 pub struct Server {
     http: tiny_http::Server,
+    desk: Arc<Desk>,
+}
+
+/// Who may ask, and what they have asked. Each request is heard by a thread of its own, so that one whose body never comes keeps
+/// nobody waiting.
+struct Desk {
     port: u16,
     token: String,
     inbox: Inbox,
@@ -50,36 +56,51 @@ enum What {
     Case,
 }
 
-/// The newest question, and whether there will be others.
-#[derive(Default)]
-struct Inbox {
-    newest: Mutex<(Option<Posted>, bool)>,
+/// What waits for an answer.
+struct Inbox<T = Posted> {
+    waiting: Mutex<Waiting<T>>,
     changed: Condvar,
 }
 
-impl Inbox {
-    /// Puts a question in; gives back the one that has to give way. A case that is to be written waits for nothing and gives way to nothing.
-    fn put(&self, posted: Posted) -> Option<Posted> {
-        let older = self.newest.lock().unwrap_or_else(PoisonError::into_inner).0.replace(posted);
+/// The newest case to be written, the newest other question, and whether there will be more.
+struct Waiting<T> {
+    case: Option<T>,
+    newest: Option<T>,
+    has_ended: bool,
+}
+
+impl<T> Default for Inbox<T> {
+    fn default() -> Self {
+        let waiting = Waiting { case: None, newest: None, has_ended: false };
+        Self { waiting: Mutex::new(waiting), changed: Condvar::new() }
+    }
+}
+
+impl<T> Inbox<T> {
+    /// Puts a question in; gives back the one that has to give way. A case that is to be written gives way to another one alone.
+    fn put(&self, question: T, is_case: bool) -> Option<T> {
+        let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
+        let older = if is_case { &mut waiting.case } else { &mut waiting.newest }.replace(question);
         self.changed.notify_one();
         older
     }
 
     fn end(&self) {
-        self.newest.lock().unwrap_or_else(PoisonError::into_inner).1 = true;
+        self.waiting.lock().unwrap_or_else(PoisonError::into_inner).has_ended = true;
         self.changed.notify_one();
     }
 
     /// Waits for the newest question; none at the end.
-    fn take(&self) -> Option<Posted> {
-        let mut newest = self.newest.lock().unwrap_or_else(PoisonError::into_inner);
+    fn take(&self) -> Option<T> {
+        let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
         loop {
-            if newest.1 {
+            if waiting.has_ended {
                 return None;
             }
-            match newest.0.take() {
-                Some(posted) => return Some(posted),
-                None => newest = self.changed.wait(newest).unwrap_or_else(PoisonError::into_inner),
+            let next = waiting.case.take();
+            match next.or_else(|| waiting.newest.take()) {
+                Some(question) => return Some(question),
+                None => waiting = self.changed.wait(waiting).unwrap_or_else(PoisonError::into_inner),
             }
         }
     }
@@ -99,35 +120,55 @@ impl Server {
         let port = http.server_addr().to_ip().map_or(port, |address| address.port());
         let random = || getrandom::u64().map_err(|error| refuse(format!("no random number: {error}")));
         let token = format!("{:016x}{:016x}", random()?, random()?);
-        Ok(Self { http, port, token, inbox: Inbox::default() })
+        Ok(Self { http, desk: Arc::new(Desk { port, token, inbox: Inbox::default() }) })
     }
 
     /// The address of the page.
     pub fn address(&self) -> String {
-        format!("http://127.0.0.1:{}/{}/", self.port, self.token)
+        format!("http://127.0.0.1:{}/{}/", self.desk.port, self.desk.token)
     }
 
     /// Answers until somebody asks to stop.
-    pub fn serve(&self, mut solver: Solver) {
-        let page = page::page(solver.question());
+    ///
+    /// # Errors
+    /// When the system gives no more connections.
+    pub fn serve(&self, mut solver: Solver) -> Result<(), Failure> {
+        let page: Arc<str> = page::page(solver.question()).into();
+        let desk = &self.desk;
         std::thread::scope(|scope| {
             scope.spawn(|| {
-                while let Some(posted) = self.inbox.take() {
+                while let Some(posted) = desk.inbox.take() {
                     let answer = answer(&mut solver, &posted);
                     send(posted.request, 200, "application/json", answer.to_string());
                 }
             });
-            while !interrupt::is_asked() {
+            let mut ending = Ok(());
+            while ending.is_ok() && !interrupt::is_asked() {
                 match self.http.recv_timeout(WAIT) {
-                    Ok(Some(request)) => self.hear(request, &page),
+                    Ok(Some(request)) if is_too_long(&request) => std::mem::forget(request),
+                    Ok(Some(request)) => {
+                        let (desk, page) = (Arc::clone(desk), Arc::clone(&page));
+                        std::thread::spawn(move || desk.hear(request, &page));
+                    }
                     Ok(None) => {}
-                    Err(_) => break,
+                    Err(error) => {
+                        let what = format!("the page can be asked no more: {error}");
+                        ending = Err(Failure::Call(what, "start fret explore again".to_owned()));
+                    }
                 }
             }
-            self.inbox.end();
-        });
+            desk.inbox.end();
+            ending
+        })
     }
+}
 
+/// Whether the body of a request is longer than any question. It is not even thrown away, for which it would be read.
+fn is_too_long(request: &Request) -> bool {
+    request.body_length().is_some_and(|length| length as u64 > LONGEST)
+}
+
+impl Desk {
     /// Answers a request that needs no solution, refuses what it does not know, and passes on the rest.
     fn hear(&self, mut request: Request, page: &str) {
         let header = |name: &'static str| {
@@ -156,7 +197,7 @@ impl Server {
         let Some(asked) = asked else {
             return send(request, 400, "text/plain", "expected {\"values\": {KEY: NUMBER}}".to_owned());
         };
-        if let Some(older) = self.inbox.put(Posted { request, asked, what }) {
+        if let Some(older) = self.inbox.put(Posted { request, asked, what }, what == What::Case) {
             let answer = json!({ "status": "superseded" });
             send(older.request, 200, "application/json", answer.to_string());
         }
@@ -197,4 +238,23 @@ fn send(request: Request, status: u16, kind: &str, text: String) {
     }
     // A browser that has gone away is told nothing.
     let _ = request.respond(response);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Inbox;
+
+    #[test]
+    fn the_newest_question_is_taken_and_a_case_gives_way_to_a_case_alone() {
+        let inbox = Inbox::default();
+        assert_eq!(inbox.put(1, false), None);
+        assert_eq!(inbox.put(2, false), Some(1));
+        assert_eq!(inbox.put(10, true), None);
+        assert_eq!(inbox.put(11, true), Some(10));
+        assert_eq!(inbox.put(3, false), Some(2));
+        assert_eq!([inbox.take(), inbox.take()], [Some(11), Some(3)]);
+        inbox.put(4, false);
+        inbox.end();
+        assert_eq!(inbox.take(), None);
+    }
 }

@@ -39,8 +39,8 @@ const ROWS: [Row; 22] = [
     ("upper_bulk_stress", "pressure", Reach::Times(2.5)),
     ("twist_moment", "force x length", Reach::Times(2.5)),
     ("twist", "rad", Reach::Times(3.0)),
-    ("stiffness", "force/length", Reach::Factor(10.0)),
-    ("conformal", "length", Reach::Factor(4.0)),
+    ("normal_stiffness", "pressure/length", Reach::Factor(10.0)),
+    ("shear_stiffness", "pressure/length", Reach::Factor(10.0)),
 ];
 
 /// Parts of a case that are looked through.
@@ -66,8 +66,8 @@ pub struct Slider {
     pub logarithmic: bool,
 }
 
-/// The sliders of a case.
-pub fn sliders(case: &Table) -> Vec<Slider> {
+/// The sliders of a case, and how many more there would be.
+pub fn sliders(case: &Table) -> (Vec<Slider>, usize) {
     let mut found = Vec::new();
     for part in PARTS {
         if let Some(value) = case.get(part) {
@@ -83,16 +83,18 @@ pub fn sliders(case: &Table) -> Vec<Slider> {
         _ => 2,
     };
     found.sort_by_key(rank);
+    let more = found.len().saturating_sub(MOST);
     found.truncate(MOST);
-    found
+    (found, more)
 }
 
 /// Looks through a value; `key` leads there.
 fn look(value: &Value, key: &str, found: &mut Vec<Slider>) {
     match value {
         Value::Table(table) => {
-            // constants of fatigue and of conduction move no contact
-            for (name, inner) in table.iter().filter(|(name, _)| *name != "fatigue") {
+            // constants of fatigue and of conduction move no contact, and phases are angles
+            let is_other = |name: &str| ["fatigue", "phase"].contains(&name);
+            for (name, inner) in table.iter().filter(|(name, _)| !is_other(name)) {
                 look(inner, &format!("{key}.{name}"), found);
             }
         }
@@ -140,7 +142,8 @@ mod tests {
                     [profile.sphere]\nradius = 10e-3\n\
                     [[load]]\nname = 'press'\nnormal_force = 12\nincrements = 12\n\
                     [[load]]\ntangential_force = [-1.0, 0.0]\ncycles = 1\n";
-        let found = sliders(&case.parse().unwrap());
+        let (found, more) = sliders(&case.parse().unwrap());
+        assert_eq!(more, 0);
         let keys: Vec<&str> = found.iter().map(|slider| slider.key.as_str()).collect();
         assert_eq!(
             keys,

@@ -26,6 +26,8 @@ const END: [&str; 12] = [
     "shift_x",
     "shift_y",
 ];
+/// Columns of the last increment that are told where a point has them: those of rolling.
+const ROLLING: [&str; 3] = ["creepage_x", "creepage_y", "spin"];
 /// Columns of the last cycle.
 const CYCLE: [&str; 9] = [
     "dissipated_energy",
@@ -166,7 +168,7 @@ pub fn columns(answers: &[Option<Answer>]) -> Vec<SummaryColumn> {
         SummaryColumn { name, kind: kind.to_owned(), values }
     };
     let mut columns = Vec::new();
-    for column in at_end() {
+    for column in at_end(&END) {
         let value = |place: usize| Some(told(column, numbers[place]?.end.as_ref()?));
         columns.push(of_records(column.name.to_owned(), column.unit, &value));
     }
@@ -175,6 +177,10 @@ pub fn columns(answers: &[Option<Answer>]) -> Vec<SummaryColumn> {
         columns.push(of_records(format!("cycle_{}", column.name), column.unit, &value));
     }
     let mut asked = Vec::new();
+    for column in at_end(&ROLLING) {
+        let value = |place: usize| Some(told(column, numbers[place]?.end.as_ref()?));
+        asked.push(of_records(column.name.to_owned(), column.unit, &value));
+    }
     let stress = |place: usize| -> Option<&StressRecord> { numbers[place]?.stress.as_ref() };
     for measure in Measure::ALL {
         let largest = |place: usize| {
@@ -209,9 +215,9 @@ pub fn columns(answers: &[Option<Answer>]) -> Vec<SummaryColumn> {
     columns
 }
 
-/// Columns of the last increment.
-fn at_end() -> impl Iterator<Item = &'static Column<StepRecord>> {
-    END.iter().filter_map(|name| STEP_COLUMNS.iter().find(|column| column.name == *name))
+/// Columns of the last increment, by their names.
+fn at_end(names: &'static [&'static str]) -> impl Iterator<Item = &'static Column<StepRecord>> {
+    names.iter().filter_map(|name| STEP_COLUMNS.iter().find(|column| column.name == *name))
 }
 
 /// Columns of the last cycle.

@@ -9,7 +9,7 @@ mod folder;
 pub mod key;
 mod planned;
 mod question;
-mod record;
+pub mod record;
 mod spread;
 
 pub use answer::{Answer, Besides, Path, direction, last_cycle};

@@ -87,7 +87,11 @@ fn wanted(name: &str, roles: &[Role], asked: &Asked) -> Result<Vec<Option<String
         let Some(index) = roles.iter().position(|known| known.name == role) else {
             let names: Vec<&str> = roles.iter().map(|role| role.name).collect();
             let help = format!("a column holds one of: {}", names.join(", "));
-            return Err(refused(name, &format!("columns: {role:?} is nothing that a log holds"), &help));
+            return Err(refused(
+                name,
+                &format!("columns: {role:?} is nothing that such a table holds"),
+                &help,
+            ));
         };
         wanted[index] = Some(column.clone());
     }
@@ -175,9 +179,11 @@ fn by_names(lines: &[&str], roles: &[Role], wanted: &[Option<String>]) -> Option
                 .iter()
                 .position(|name| name == column || name_and_unit(name).0 == *column)
                 .or_else(|| place_of_number(column).filter(|place| *place < names.len())),
-            None => names.iter().position(|name| {
-                let plain = name_and_unit(name).0.to_lowercase().replace([' ', '-'], "_");
-                roles[role].known.contains(&plain.as_str())
+            // By the order of the names that are known, the surest first.
+            None => roles[role].known.iter().find_map(|known| {
+                names
+                    .iter()
+                    .position(|name| name_and_unit(name).0.to_lowercase().replace([' ', '-'], "_") == *known)
             }),
         };
         let places: Vec<Option<usize>> = (0..roles.len()).map(place).collect();

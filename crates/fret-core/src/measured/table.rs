@@ -162,7 +162,7 @@ impl Rows<'_> {
             return Err(refused(
                 &self.table.name,
                 &format!("line {line}: the units below this head are others than below the first"),
-                "cut the file at its heads, and identify its parts one by one",
+                "cut the file at its heads, and read its parts one by one",
             ));
         }
         let bad = self.bad_row(&cells, line);

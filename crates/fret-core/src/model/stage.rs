@@ -25,7 +25,7 @@ pub struct Stage<M = CellMap> {
     #[serde(default, skip_serializing_if = "are_all_none")]
     pub bulk_stress: [[Option<StageControl>; 2]; 2],
     /// What changes of the distance rolled along x and y, if anything.
-    #[serde(skip_serializing_if = "are_none")]
+    #[serde(default, skip_serializing_if = "are_none")]
     pub roll: [Option<StageControl>; 2],
     /// Increments of the stage, or of one cycle, all rows of a table included.
     pub increments: usize,

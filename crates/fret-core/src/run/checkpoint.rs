@@ -20,7 +20,7 @@ use crate::plan::Plan;
 use crate::solver::{Resultants, SolverMemory};
 
 /// Version of the bytes; another layout of what is stored gets another one.
-const FORMAT: u32 = 12;
+const FORMAT: u32 = 13;
 
 /// How far a run has come in its stages.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -23,6 +23,7 @@ use super::thinning::{LayersWorn, bodies_left, due, layers_worn};
 use super::wear::worn;
 use crate::case::{Case, Stage};
 use crate::history::{CycleRecord, History, KeptFields, StepRecord, WornThrough, WornTo};
+use crate::kernel::uniform_response;
 use crate::model::{ContactState, CoulombFriction, LoadStep, MirroredState, SolvedState};
 use crate::plan::{Coupling, Plan};
 use crate::solver::Resultants;
@@ -210,6 +211,17 @@ impl<'a> Journey<'a> {
         FrettingLoop::new((stage, cycle), solved, &self.state, tangential, moment)
     }
 
+    /// The mean gap that a load prescribes between surfaces that repeat, where it leaves none.
+    fn closed_gap(&self, load: &LoadStep) -> Option<f64> {
+        let case = self.case();
+        let approach = load.normal.motion().filter(|_| case.periodic)?;
+        if uniform_response(&case.bodies).is_some() {
+            return None;
+        }
+        let gap = case.profile.gap(&self.plan.grid).mean()? - approach;
+        (gap <= 0.0).then_some(gap)
+    }
+
     /// Solves the next increment, in parts where it is left to the program or not solved as a whole; its fields, should they be kept.
     fn solved(
         &mut self,
@@ -219,6 +231,9 @@ impl<'a> Journey<'a> {
         let case = self.case();
         let Place { solved: increment, stage, .. } = self.place;
         let refinement = self.refinement();
+        if let Some(gap) = self.closed_gap(to) {
+            return Err(RunError::GapClosed { increment, stage: case.stages[stage].name.clone(), gap });
+        }
         let started = Instant::now();
         let observer = &mut *self.observer;
         let failed = |error| run_error(&error, increment, case, stage);

@@ -105,6 +105,18 @@ pub enum RunError {
         /// Parts made.
         parts: usize,
     },
+    /// A mean gap is prescribed that needs the surfaces to overlap.
+    #[error(
+        "increment {increment} ({stage}): a mean gap of {gap:e} is prescribed, and at 0 the surfaces touch everywhere; a smaller amplitude, or beyond full contact the normal force"
+    )]
+    GapClosed {
+        /// Number of the increment, from 0.
+        increment: usize,
+        /// Name of its stage.
+        stage: String,
+        /// The mean gap that is prescribed [length].
+        gap: f64,
+    },
     /// A cycle wears the surfaces more than the grid can follow.
     #[error(
         "increment {increment} ({stage}): this cycle alone wears off {share:.2} of the stiffest wave of pressure; choose a smaller wear.coefficient (with more cycles), or coarser cells, which do not help a nearly incompressible film"
@@ -155,6 +167,7 @@ impl RunError {
             | Self::AboveFullSlip { increment, .. }
             | Self::NoTilt { increment, .. }
             | Self::HistoryUnresolved { increment, .. }
+            | Self::GapClosed { increment, .. }
             | Self::WearTooFast { increment, .. }
             | Self::WornTooThin { increment, .. }
             | Self::OutOfMemory { increment, .. }

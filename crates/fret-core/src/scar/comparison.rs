@@ -8,6 +8,9 @@ use crate::measured::{MeasuredError, refused};
 /// Wear depths below this share of the largest are no scar.
 const WORN: f64 = 1e-3;
 
+/// Depths below so many times the roughness beside the scar are those of a rough line.
+const ROUGH: f64 = 20.0;
+
 /// A number of both scars.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
@@ -22,9 +25,9 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// Computed less measured, over measured [-].
-    pub fn difference(&self) -> f64 {
-        self.computed / self.measured - 1.0
+    /// Computed less measured, over measured [-]; none where nothing was measured.
+    pub fn difference(&self) -> Option<f64> {
+        (self.measured != 0.0).then(|| self.computed / self.measured - 1.0)
     }
 }
 
@@ -83,6 +86,13 @@ pub fn compare(computed: &Line, width: f64, measured: Measured) -> Result<Compar
     let is_worn = |k: &usize| depths[*k] > WORN * one.depth || means[*k] > WORN * other.depth;
     let worn: Vec<f64> = (0..x.len()).filter(is_worn).map(|k| depths[k] - means[k]).collect();
     let difference = (worn.iter().map(|off| off * off).sum::<f64>() / worn.len().max(1) as f64).sqrt();
+    if ROUGH * level.beside > other.depth {
+        notes.push(format!(
+            "the surface beside the scar is rough by {:.2e}, {:.0} % of the depth: depth and width are those of a rough line",
+            level.beside,
+            100.0 * level.beside / other.depth
+        ));
+    }
     if level.counts_depths {
         notes.push("the line rises in the scar: taken as depths".to_owned());
     }
@@ -140,7 +150,7 @@ mod tests {
         let x = cells();
         let z = x.iter().map(|x| parabola(0.2, 3.6, *x)).collect();
         let found = compare(&Line { x, z }, 0.1, measured(0.3, 4.0)).unwrap();
-        let off: Vec<f64> = found.numbers.iter().map(Pair::difference).collect();
+        let off: Vec<f64> = found.numbers.iter().filter_map(Pair::difference).collect();
         // cells of a fortieth of the width: their means are off by the curvature, 4e-4 of the depth at most
         for (off, right) in off.iter().zip([2.0 / 3.0 - 1.0, -0.1, 0.6 - 1.0]) {
             assert!((off - right).abs() < 2e-3, "{off} for {right}");

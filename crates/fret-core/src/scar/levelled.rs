@@ -41,8 +41,9 @@ pub fn levelled(name: &str, heights: &Line) -> Result<Levelled, MeasuredError> {
         let [offset, slope] = straight(heights, &is_beside);
         let raised: Vec<f64> =
             heights.x.iter().zip(&heights.z).map(|(x, z)| z - offset - slope * x).collect();
-        // What was worn lies on one side of its surroundings.
-        let counts_depths = raised.iter().sum::<f64>() > 0.0;
+        // What was worn lies on one side of its surroundings, farther from them than what was piled up.
+        let most = |sign: f64| raised.iter().map(|z| sign * z).fold(0.0, f64::max);
+        let counts_depths = most(1.0) > most(-1.0);
         let sign = if counts_depths { 1.0 } else { -1.0 };
         let line = Line { x: heights.x.clone(), z: raised.iter().map(|z| sign * z).collect() };
         let Some(hollow) = Hollow::of(&line) else { break };

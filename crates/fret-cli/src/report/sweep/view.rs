@@ -12,6 +12,7 @@ use crate::failure::Failure;
 use crate::figures::unit_of;
 use crate::report::html::{given, number};
 use crate::sweep::columns::{SummaryColumn, columns};
+use crate::sweep::record::PointOfSweep;
 use crate::sweep::{Answer, Kept, POINTS, RECORD, SweepRecord, UNCERTAINTY};
 
 /// Ends of keys that are known to have a unit.
@@ -55,6 +56,11 @@ impl View {
     /// When a file that must be there cannot be read.
     pub fn read(folder: &Path) -> Result<Self, Failure> {
         let record: SweepRecord = read(&folder.join(RECORD))?;
+        let fits = |point: &PointOfSweep| point.values.len() == record.keys.len();
+        if record.drawn.len() > record.keys.len() || !record.points.iter().all(fits) {
+            let what = format!("{}: not what a sweep writes", folder.join(RECORD).display());
+            return Err(Failure::Call(what, "run fret sweep again".to_owned()));
+        }
         let answer = |file: &String| {
             let text = fs::read(folder.join(POINTS).join(file)).ok()?;
             Some(serde_json::from_slice::<Kept>(&text).ok()?.answer)
@@ -122,6 +128,9 @@ impl View {
     }
 
     fn unit_of_key(&self, key: &str) -> Option<String> {
+        if words_of(key).contains(&"phase") {
+            return Some("°".to_owned());
+        }
         let end = words_of(key).last().copied()?;
         let (_, kind) = KINDS.iter().find(|(known, _)| *known == end)?;
         self.unit(kind)
