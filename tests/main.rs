@@ -50,6 +50,7 @@ mod rough_cases;
 mod rough_surfaces;
 mod second_order;
 mod severity;
+mod shapes;
 mod shear_strength;
 mod sliding;
 mod stiff_and_extreme;
