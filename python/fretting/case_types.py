@@ -374,7 +374,8 @@ class Pyramid(TypedDict):
     """
     indenter: Indenter
     """
-    "berkovich" (three sides, 65.27 degrees), "vickers" (four, 68 degrees) or "cube_corner" (three, 35.264 degrees). The first side faces x.
+    A three-sided Berkovich indenter (65.27 degrees), a four-sided Vickers (68 degrees), or the corner of a cube (three sides, 35.264
+    degrees). The first side faces x.
     """
 
 
