@@ -54,6 +54,7 @@ mod second_order;
 mod sensitivities;
 mod sensitivity_limits;
 mod severity;
+mod shapes;
 mod shear_strength;
 mod sliding;
 mod stiff_and_extreme;

@@ -90,6 +90,33 @@ class CrackConstants(TypedDict):
     """
 
 
+class CrownedRoller(TypedDict):
+    """
+    A crowned roller.
+    """
+
+    axis: Axis
+    """
+    Direction of its axis.
+    """
+    crown_radius: float
+    """
+    Radius of the crown along the axis [length], positive.
+    """
+    flat_length: NotRequired[float]
+    """
+    Length of the straight middle [length]. Default: none, crowned from the middle on.
+    """
+    length: float
+    """
+    Length along the axis [length], positive, with square ends.
+    """
+    radius: float
+    """
+    Radius [length], positive.
+    """
+
+
 class Cylinder(TypedDict):
     """
     A cylinder.
@@ -197,6 +224,12 @@ Held: TypeAlias = Literal["held"]
 
 
 Increments: TypeAlias = int | Auto
+
+
+Indenter: TypeAlias = Literal["berkovich", "vickers", "cube_corner"]
+"""
+An indenter with plane sides.
+"""
 
 
 Integration: TypeAlias = Literal["second_order", "end_point"]
@@ -334,10 +367,45 @@ class Phase(TypedDict):
     """
 
 
+class Pyramid(TypedDict):
+    """
+    A pyramid.
+    """
+
+    half_angle: NotRequired[float]
+    """
+    Angle between the axis and a side [degrees], in place of that of the indenter.
+    """
+    indenter: Indenter
+    """
+    A three-sided Berkovich indenter (65.27 degrees), a four-sided Vickers (68 degrees), or the corner of a cube (three sides, 35.264
+    degrees). The first side faces x.
+    """
+
+
 Ramp: TypeAlias = Literal["linear", "square", "cubic"]
 """
 How a ramp runs.
 """
+
+
+class RectangularPunch(TypedDict):
+    """
+    A rectangular flat punch.
+    """
+
+    edge_radius: NotRequired[float]
+    """
+    Radius of the rounding around the flat [length], positive. Default: sharp edges, no body beyond.
+    """
+    length_x: float
+    """
+    Length of the flat along x [length], positive.
+    """
+    length_y: float
+    """
+    Length of the flat along y [length], positive.
+    """
 
 
 Resample: TypeAlias = Literal["none", "linear"]
@@ -434,6 +502,21 @@ class Sphere(TypedDict):
     radius: float
     """
     Radius [length], positive; in a body's own profile negative for a hollow.
+    """
+
+
+class SpheroCone(TypedDict):
+    """
+    A cone with a spherical tip.
+    """
+
+    radius: float
+    """
+    Radius of the tip [length], positive.
+    """
+    slope: float
+    """
+    Slope of the side against the surface, positive: the tangent of the angle between them.
     """
 
 
@@ -595,6 +678,21 @@ WornBody: TypeAlias = Literal["upper", "lower"]
 """
 One of the bodies.
 """
+
+
+class WornSphere(TypedDict):
+    """
+    A worn or truncated sphere.
+    """
+
+    flat_radius: float
+    """
+    Radius of the flat [length], positive.
+    """
+    radius: float
+    """
+    Radius of the sphere [length], positive.
+    """
 
 
 Component: TypeAlias = float | Held
@@ -848,6 +946,10 @@ class Profile(TypedDict):
     """
     A blunt cone, slope r.
     """
+    crowned_roller: NotRequired[CrownedRoller]
+    """
+    A roller of finite length with a crown along its axis.
+    """
     cylinder: NotRequired[Cylinder]
     """
     A cylinder, as the parabola s^2 / (2 R) across its axis.
@@ -864,6 +966,14 @@ class Profile(TypedDict):
     """
     Measured or synthetic topography, one height per cell.
     """
+    pyramid: NotRequired[Pyramid]
+    """
+    A pyramid, tip first: an indenter by its angle.
+    """
+    rectangular_punch: NotRequired[RectangularPunch]
+    """
+    A rectangular flat punch, with sharp or rounded edges.
+    """
     rounded_punch: NotRequired[RoundedPunch]
     """
     A flat punch with a rounded edge: flat within b, (r - b)^2 / (2 R) beyond.
@@ -872,9 +982,17 @@ class Profile(TypedDict):
     """
     A sphere, as the paraboloid r^2 / (2 R).
     """
+    sphero_cone: NotRequired[SpheroCone]
+    """
+    A cone with a spherical tip: r^2 / (2 R) up to the radius R slope, slope (r - R slope / 2) beyond.
+    """
     wave: NotRequired[Wave]
     """
     A sinusoidal surface amplitude (1 - cos(2 pi x / Lx) cos(2 pi y / Ly)).
+    """
+    worn_sphere: NotRequired[WornSphere]
+    """
+    A worn or truncated sphere: flat within b, (r^2 - b^2) / (2 R) beyond.
     """
 
 

@@ -321,21 +321,13 @@ impl<'a> View<'a> {
             return told;
         }
         add("stick", "stick fraction", percent(record.stick_area / record.contact_area));
-        match self.history.cycles.last() {
-            Some(cycle) => {
-                add("energy", "energy W_d per cycle", self.number(cycle.dissipated_energy, "force x length"));
-                add(
-                    "condition",
-                    "running condition",
-                    spoken(cycle.regime.map_or(json!(null), |regime| json!(regime))),
-                );
-                let ratio = cycle.energy_ratio.map_or("–".to_owned(), number);
-                add("ratio", "energy ratio A", ratio);
-            }
-            None => {
-                add("energy", "dissipated energy", self.number(record.dissipated_energy, "force x length"));
-                add("condition", "condition", spoken(json!(record.regime)));
-            }
+        if let Some(cycle) = self.history.cycles.last() {
+            add("energy", "energy W_d per cycle", self.number(cycle.dissipated_energy, "force x length"));
+            add("condition", "running condition", spoken(&json!(cycle.regime)));
+            add("ratio", "energy ratio A", cycle.energy_ratio.map_or("–".to_owned(), number));
+        } else {
+            add("energy", "dissipated energy", self.number(record.dissipated_energy, "force x length"));
+            add("condition", "condition", spoken(&json!(record.regime)));
         }
         told
     }
@@ -387,7 +379,7 @@ impl<'a> View<'a> {
 }
 
 /// A word of a file for a person.
-fn spoken(word: Value) -> String {
+fn spoken(word: &Value) -> String {
     word.as_str().map_or("–".to_owned(), |word| word.replace('_', " "))
 }
 

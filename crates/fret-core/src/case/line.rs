@@ -55,6 +55,13 @@ fn of_a_surface(shape: &Shape) -> Option<(&'static str, &'static str)> {
         Shape::Cylinder { axis: Axis::X, .. } | Shape::Cylinder { length: Some(_), .. } => {
             Some(("cylinder, across y or with ends,", cylinder))
         }
+        Shape::SpheroCone { .. } => {
+            Some(("sphero_cone", "a cone, which is a wedge here, or a rounded_punch"))
+        }
+        Shape::WornSphere { .. } => Some(("worn_sphere", "a rounded_punch, flat within flat_radius along x")),
+        Shape::Pyramid { .. } => Some(("pyramid", "a cone, which is a wedge here")),
+        Shape::RectangularPunch { .. } => Some(("rectangular_punch", "a flat_punch or a rounded_punch")),
+        Shape::CrownedRoller { .. } => Some(("crowned_roller", cylinder)),
         Shape::Wave { .. } => {
             Some(("wave", "a wave is periodic: cells = [n, 4], size = [x, y], periodic = true"))
         }

@@ -8,8 +8,9 @@ use super::holes::hole;
 use super::judge::Judge;
 use super::numbers::Head;
 use super::surface_file::{
-    CylinderFile, EllipsoidFile, HeightsFile, LENGTH, OfFile, ProfileFile, RoundedPunchFile, SphereFile,
-    WaveFile,
+    CrownedRollerFile, CylinderFile, EllipsoidFile, HeightsFile, IndenterFile, LENGTH, OfFile, ProfileFile,
+    PyramidFile, RectangularPunchFile, RoundedPunchFile, SphereFile, SpheroConeFile, WaveFile,
+    WornSphereFile,
 };
 use super::topography::{self, Content, Measured, Question};
 use crate::document::At;
@@ -56,6 +57,46 @@ pub(super) fn profile(judge: &mut Judge, file: &CaseFile, cells: Option<Cells>) 
     Some(sum)
 }
 
+/// Shapes whose numbers each say all, in the order of their keys.
+fn whole_shapes(given: &ProfileFile) -> Vec<Shape> {
+    let mut shapes = Vec::new();
+    if let Some(punch) = &given.rounded_punch {
+        let RoundedPunchFile { flat_radius, edge_radius } = punch.value;
+        shapes.push(Shape::RoundedPunch { flat_radius, edge_radius });
+    }
+    shapes.extend(given.flat_punch.as_ref().map(|punch| Shape::FlatPunch { radius: punch.value.radius }));
+    shapes.extend(given.cone.as_ref().map(|cone| Shape::Cone { slope: cone.value.slope }));
+    if let Some(cone) = &given.sphero_cone {
+        let SpheroConeFile { radius, slope } = cone.value;
+        shapes.push(Shape::SpheroCone { radius, slope });
+    }
+    if let Some(sphere) = &given.worn_sphere {
+        let WornSphereFile { radius, flat_radius } = sphere.value;
+        shapes.push(Shape::WornSphere { radius, flat_radius });
+    }
+    shapes.extend(given.pyramid.as_ref().map(|pyramid| indenter(pyramid.value)));
+    if let Some(punch) = &given.rectangular_punch {
+        let RectangularPunchFile { length_x, length_y, edge_radius } = punch.value;
+        shapes.push(Shape::RectangularPunch { lengths: [length_x, length_y], edge_radius });
+    }
+    if let Some(roller) = &given.crowned_roller {
+        let CrownedRollerFile { radius, axis, length, crown_radius, flat_length } = roller.value;
+        let flat_length = flat_length.unwrap_or(0.0);
+        shapes.push(Shape::CrownedRoller { radius, axis, length, flat_length, crown_radius });
+    }
+    shapes
+}
+
+/// An indenter by its sides and their angle with its axis (ISO 14577-2).
+fn indenter(given: PyramidFile) -> Shape {
+    let (sides, angle) = match given.indenter {
+        IndenterFile::Berkovich => (3, 65.27),
+        IndenterFile::Vickers => (4, 68.0),
+        IndenterFile::CubeCorner => (3, 35.264),
+    };
+    Shape::Pyramid { sides, slope: given.half_angle.unwrap_or(angle).to_radians().tan().recip() }
+}
+
 /// One profile table while it is judged.
 struct Part<'a, 'b> {
     judge: &'a mut Judge<'b>,
@@ -68,8 +109,7 @@ struct Part<'a, 'b> {
 
 impl Part<'_, '_> {
     fn judge(&mut self, given: &At<ProfileFile>) {
-        let ProfileFile { sphere, ellipsoid, cylinder, rounded_punch, flat_punch, cone, wave, heights } =
-            &given.value;
+        let ProfileFile { sphere, ellipsoid, cylinder, wave, heights, .. } = &given.value;
         if let Some(SphereFile { radius }) = sphere.as_deref() {
             let shape = Shape::Sphere { radius: radius.value };
             self.curved("sphere", shape, &[("radius", radius)]);
@@ -82,16 +122,7 @@ impl Part<'_, '_> {
             let shape = Shape::Cylinder { radius: radius.value, axis: *axis, length: *length };
             self.curved("cylinder", shape, &[("radius", radius)]);
         }
-        if let Some(punch) = rounded_punch {
-            let RoundedPunchFile { flat_radius, edge_radius } = punch.value;
-            self.sum.shapes.push(Shape::RoundedPunch { flat_radius, edge_radius });
-        }
-        if let Some(punch) = flat_punch {
-            self.sum.shapes.push(Shape::FlatPunch { radius: punch.radius });
-        }
-        if let Some(cone) = cone {
-            self.sum.shapes.push(Shape::Cone { slope: cone.slope });
-        }
+        self.sum.shapes.extend(whole_shapes(&given.value));
         if let Some(wave) = wave {
             let WaveFile { amplitude, wavelength_x, wavelength_y } = wave.value;
             self.sum.shapes.push(Shape::Wave { amplitude, wavelengths: [wavelength_x, wavelength_y] });
@@ -110,7 +141,7 @@ impl Part<'_, '_> {
             self.judge.refuse::<()>(
                 given.span(),
                 format!("{}: empty", self.place),
-                "shapes are: sphere, ellipsoid, cylinder, rounded_punch, flat_punch, cone, wave, heights",
+                "shapes are: sphere, ellipsoid, cylinder, rounded_punch, flat_punch, cone, sphero_cone, worn_sphere, pyramid, rectangular_punch, crowned_roller, wave, heights",
             );
         }
     }

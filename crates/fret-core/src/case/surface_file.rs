@@ -14,6 +14,8 @@ use crate::model::{Axis, Detrend, EvolutionDriver};
 pub(super) const LENGTH: Range = Range::POSITIVE.words("must be a positive finite length");
 /// A number of a shape or of a law.
 const NUMBER: Range = Range::POSITIVE.words("must be a positive finite number");
+/// Angle between the axis of an indenter and its sides.
+const ANGLE: Range = Range::between(1.0, 89.9, "must lie between 1 and 89.9 degrees");
 /// Cycles that a simulated one may stand for.
 pub(super) const JUMP: Range = Range::between(1.0, 1e6, "must lie between 1 and 1000000");
 /// Words for a part of a whole.
@@ -35,6 +37,16 @@ pub(super) struct ProfileFile {
     pub flat_punch: Option<At<FlatPunchFile>>,
     /// A blunt cone, slope r.
     pub cone: Option<At<ConeFile>>,
+    /// A cone with a spherical tip: r^2 / (2 R) up to the radius R slope, slope (r - R slope / 2) beyond.
+    pub sphero_cone: Option<At<SpheroConeFile>>,
+    /// A worn or truncated sphere: flat within b, (r^2 - b^2) / (2 R) beyond.
+    pub worn_sphere: Option<At<WornSphereFile>>,
+    /// A pyramid, tip first: an indenter by its angle.
+    pub pyramid: Option<At<PyramidFile>>,
+    /// A rectangular flat punch, with sharp or rounded edges.
+    pub rectangular_punch: Option<At<RectangularPunchFile>>,
+    /// A roller of finite length with a crown along its axis.
+    pub crowned_roller: Option<At<CrownedRollerFile>>,
     /// A sinusoidal surface amplitude (1 - cos(2 pi x / Lx) cos(2 pi y / Ly)).
     pub wave: Option<At<WaveFile>>,
     /// Measured or synthetic topography, one height per cell.
@@ -100,6 +112,89 @@ pub(super) struct ConeFile {
     /// Slope of its side against the surface, positive: the tangent of the angle between them.
     #[range(NUMBER)]
     pub slope: f64,
+}
+
+/// A cone with a spherical tip.
+#[derive(Clone, Copy, Table, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct SpheroConeFile {
+    /// Radius of the tip [length], positive.
+    #[range(LENGTH)]
+    pub radius: f64,
+    /// Slope of the side against the surface, positive: the tangent of the angle between them.
+    #[range(NUMBER)]
+    pub slope: f64,
+}
+
+/// A worn or truncated sphere.
+#[derive(Clone, Copy, Table, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct WornSphereFile {
+    /// Radius of the sphere [length], positive.
+    #[range(LENGTH)]
+    pub radius: f64,
+    /// Radius of the flat [length], positive.
+    #[range(LENGTH)]
+    pub flat_radius: f64,
+}
+
+/// An indenter with plane sides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Table, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum IndenterFile {
+    /// Three sides, 65.27 degrees between axis and side.
+    Berkovich,
+    /// Four sides, 68 degrees between axis and side (136 between opposite ones).
+    Vickers,
+    /// Three sides, 35.264 degrees: the corner of a cube.
+    CubeCorner,
+}
+
+/// A pyramid.
+#[derive(Clone, Copy, Table, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct PyramidFile {
+    /// A three-sided Berkovich indenter (65.27 degrees), a four-sided Vickers (68 degrees), or the corner of a cube (three sides, 35.264
+    /// degrees). The first side faces x.
+    pub indenter: IndenterFile,
+    /// Angle between the axis and a side [degrees], in place of that of the indenter.
+    #[range(ANGLE)]
+    pub half_angle: Option<f64>,
+}
+
+/// A rectangular flat punch.
+#[derive(Clone, Copy, Table, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct RectangularPunchFile {
+    /// Length of the flat along x [length], positive.
+    #[range(LENGTH)]
+    pub length_x: f64,
+    /// Length of the flat along y [length], positive.
+    #[range(LENGTH)]
+    pub length_y: f64,
+    /// Radius of the rounding around the flat [length], positive. Default: sharp edges, no body beyond.
+    #[range(LENGTH)]
+    pub edge_radius: Option<f64>,
+}
+
+/// A crowned roller.
+#[derive(Clone, Copy, Table, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct CrownedRollerFile {
+    /// Radius [length], positive.
+    #[range(LENGTH)]
+    pub radius: f64,
+    /// Direction of its axis.
+    pub axis: Axis,
+    /// Length along the axis [length], positive, with square ends.
+    #[range(LENGTH)]
+    pub length: f64,
+    /// Radius of the crown along the axis [length], positive.
+    #[range(LENGTH)]
+    pub crown_radius: f64,
+    /// Length of the straight middle [length]. Default: none, crowned from the middle on.
+    #[range(LENGTH)]
+    pub flat_length: Option<f64>,
 }
 
 /// A sinusoidal surface.

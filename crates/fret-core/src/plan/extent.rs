@@ -289,13 +289,18 @@ fn half_widths(shape: &Shape, load: Control, compliance: f64) -> [f64; 2] {
         Control::Force(force) => (0.75 * force * radius * compliance).cbrt(),
         Control::Motion(approach) | Control::FarEnd(approach) => (radius * approach).sqrt(),
     };
+    let cone = |slope: f64| match load {
+        Control::Force(force) => (2.0 * force * compliance / (PI * slope)).sqrt(),
+        Control::Motion(approach) | Control::FarEnd(approach) => 2.0 * approach / (PI * slope),
+    };
+    let across = |radius: f64, length: f64| match load {
+        Control::Force(force) => (4.0 * force / length * radius * compliance / PI).sqrt(),
+        Control::Motion(approach) | Control::FarEnd(approach) => (radius * approach).sqrt(),
+    };
     match *shape {
         Shape::Sphere { radius } => [hertz(radius); 2],
         Shape::Cylinder { radius, axis, length: Some(length) } => {
-            let across = match load {
-                Control::Force(force) => (4.0 * force / length * radius * compliance / PI).sqrt(),
-                Control::Motion(approach) | Control::FarEnd(approach) => (radius * approach).sqrt(),
-            };
+            let across = across(radius, length);
             match axis {
                 Axis::X => [length / 2.0, across],
                 Axis::Y => [across, length / 2.0],
@@ -303,10 +308,30 @@ fn half_widths(shape: &Shape, load: Control, compliance: f64) -> [f64; 2] {
         }
         Shape::RoundedPunch { flat_radius, edge_radius } => [flat_radius + hertz(edge_radius); 2],
         Shape::FlatPunch { radius } => [radius; 2],
-        Shape::Cone { slope } => match load {
-            Control::Force(force) => [(2.0 * force * compliance / (PI * slope)).sqrt(); 2],
-            Control::Motion(approach) | Control::FarEnd(approach) => [2.0 * approach / (PI * slope); 2],
-        },
+        Shape::Cone { slope } => [cone(slope); 2],
+        // wider than the sphere of its tip where the cone is reached, and than the cone without it
+        Shape::SpheroCone { radius, slope } => {
+            let turn = radius * slope;
+            [if hertz(radius) <= turn { hertz(radius) } else { cone(slope).max(turn) + 0.25 * turn }; 2]
+        }
+        Shape::WornSphere { radius, flat_radius } => [flat_radius.hypot(hertz(radius)); 2],
+        // the corners of the polygon that has the area of the circle of the equal cone
+        Shape::Pyramid { sides, slope } => {
+            let angle = PI / f64::from(sides);
+            let area = (f64::from(sides) * angle.tan() / PI).sqrt();
+            [cone(slope / area) / (area * angle.cos()); 2]
+        }
+        Shape::RectangularPunch { lengths, edge_radius } => {
+            lengths.map(|length| 0.5 * length + edge_radius.map_or(0.0, hertz))
+        }
+        Shape::CrownedRoller { radius, axis, length, flat_length, crown_radius } => {
+            let along = (0.5 * flat_length + hertz(crown_radius)).min(0.5 * length);
+            let across = across(radius, 2.0 * along);
+            match axis {
+                Axis::X => [along, across],
+                Axis::Y => [across, along],
+            }
+        }
         Shape::Ellipsoid { .. } | Shape::Cylinder { length: None, .. } | Shape::Wave { .. } => {
             [f64::INFINITY; 2]
         }

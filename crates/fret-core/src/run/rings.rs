@@ -53,7 +53,8 @@ impl Rings {
     pub fn of(plan: &Plan) -> Self {
         let flat = match plan.case.profile.shapes[..] {
             [Shape::FlatPunch { radius }] => radius,
-            [Shape::RoundedPunch { flat_radius, .. }] => flat_radius,
+            [Shape::RoundedPunch { flat_radius, .. } | Shape::WornSphere { flat_radius, .. }] => flat_radius,
+            [Shape::RectangularPunch { lengths: [x, y], .. }] => (x * y / std::f64::consts::PI).sqrt(),
             _ => 0.0,
         };
         let divided = plan.case.stages.iter().map(|stage| stage.history_tolerance.is_some()).collect();

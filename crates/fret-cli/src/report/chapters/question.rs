@@ -100,7 +100,7 @@ fn profile(view: &Overview<'_>, profile: &Profile<HeightsSummary>) -> String {
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ")
 }
 
-/// A shape in words: names and numbers in the order of their names. All its numbers but slopes are lengths.
+/// A shape in words: names and numbers in the order of their names. All its numbers but slopes and counts of sides are lengths.
 fn described(view: &Overview<'_>, value: &Value) -> String {
     match value {
         Value::Object(map) => {
@@ -108,8 +108,8 @@ fn described(view: &Overview<'_>, value: &Value) -> String {
                 .iter()
                 .filter(|(_, value)| !value.is_null())
                 .map(|(name, value)| match value {
-                    Value::Number(slope) if name == "slope" => {
-                        format!("slope {}", slope.as_f64().map_or_else(String::new, given))
+                    Value::Number(slope) if matches!(name.as_str(), "slope" | "sides") => {
+                        format!("{name} {}", slope.as_f64().map_or_else(String::new, given))
                     }
                     _ => format!("{} {}", name.replace('_', " "), described(view, value)),
                 })

@@ -30,6 +30,33 @@ fn every_shape_is_read_as_it_is_written() {
         ),
         ("flat_punch]\nradius = 1.0", Shape::FlatPunch { radius: 1.0 }),
         ("cone]\nslope = 0.25", Shape::Cone { slope: 0.25 }),
+        ("sphero_cone]\nradius = 3.0\nslope = 0.25", Shape::SpheroCone { radius: 3.0, slope: 0.25 }),
+        (
+            "worn_sphere]\nradius = 3.0\nflat_radius = 0.5",
+            Shape::WornSphere { radius: 3.0, flat_radius: 0.5 },
+        ),
+        (
+            "pyramid]\nindenter = \"vickers\"\nhalf_angle = 45.0",
+            Shape::Pyramid { sides: 4, slope: 45.0_f64.to_radians().tan().recip() },
+        ),
+        (
+            "rectangular_punch]\nlength_x = 1.0\nlength_y = 2.0",
+            Shape::RectangularPunch { lengths: [1.0, 2.0], edge_radius: None },
+        ),
+        (
+            "rectangular_punch]\nlength_x = 1.0\nlength_y = 2.0\nedge_radius = 3.0",
+            Shape::RectangularPunch { lengths: [1.0, 2.0], edge_radius: Some(3.0) },
+        ),
+        (
+            "crowned_roller]\nradius = 7.0\naxis = \"x\"\nlength = 2.0\ncrown_radius = 90.0",
+            Shape::CrownedRoller {
+                radius: 7.0,
+                axis: Axis::X,
+                length: 2.0,
+                flat_length: 0.0,
+                crown_radius: 90.0,
+            },
+        ),
         (
             "wave]\namplitude = 0.5\nwavelength_x = 1.5",
             Shape::Wave { amplitude: 0.5, wavelengths: [Some(1.5), None] },
