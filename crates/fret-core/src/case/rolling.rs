@@ -8,7 +8,7 @@ use super::judge::Judge;
 use super::misfits::{Loading, Misfit};
 use super::stage_file::IncrementsFile;
 use crate::document::At;
-use crate::model::controls::{BULK_STRESS, FREEDOMS, Kind, ROLL, TILT};
+use crate::model::controls::{BULK_STRESS, FREEDOMS, Kind, ROLL, TANGENTIAL, TILT};
 use crate::model::stage::{Course, StageControl};
 use crate::model::{Frame, Kinematics, Profile, Shape};
 
@@ -50,6 +50,7 @@ pub(super) fn rolling(
         roll.refuse(judge, loading, "of a profile that does not roll: it has an edge, a flat or a tip", help);
     }
     beside(judge, loading, kinematics);
+    steady(judge, loading, kinematics);
     if kinematics.frame == Frame::Contact {
         in_the_frame_of_the_contact(judge, file, loading, profile);
     }
@@ -72,6 +73,54 @@ fn beside(judge: &mut Judge, loading: Loading<'_>, kinematics: Kinematics) {
         let tilt = Misfit { freedoms: TILT..BULK_STRESS, motions: false, in_table: "a tilt" };
         let why = "of a contact that rolls, with kinematics.frame = \"bodies\": a tilt is about the middle of the grid, and the contact leaves it";
         tilt.refuse(judge, loading, why, "[kinematics] frame = \"contact\"");
+    }
+}
+
+/// Refuses what has no steady state.
+fn steady(judge: &mut Judge, (files, _): Loading<'_>, kinematics: Kinematics) {
+    for file in files.iter().filter(|file| file.value.controls.are_steady()) {
+        let stage = &file.value;
+        let span = stage.controls.of("roll").map_or_else(|| file.span(), Given::span);
+        let mut refuse = |why: &str, help: &str| {
+            judge.refuse::<()>(span.clone(), format!("roll = \"steady\" {why}"), help)
+        };
+        if kinematics.frame == Frame::Bodies {
+            refuse(
+                "with kinematics.frame = \"bodies\": the contact would leave the grid",
+                "frame = \"contact\"",
+            );
+        }
+        if stage.cycles.is_some() || stage.until_steady.is_some() {
+            refuse(
+                "in cycles, which have no steady state of this kind",
+                "no cycles; or roll = a distance, until_steady = 1e-3",
+            );
+        }
+        if matches!(stage.increments, IncrementsFile::Auto(_)) {
+            refuse("with increments = \"auto\"", "a number of increments: each ends in a steady state");
+        }
+        let motion = stage.controls.0.iter().find(|given| {
+            (TANGENTIAL..TILT).contains(&given.row.freedom)
+                && matches!(given.way.kind, Kind::Motion | Kind::FarEnd)
+                && given.values.iter().any(Option::is_some)
+        });
+        if let Some(given) = motion {
+            let why = format!("beside {}: what moves on steadily does so by distance rolled", given.way.name);
+            refuse(&why, "creepage and spin, or a force");
+        }
+        if stage.controls.0.iter().any(|given| (BULK_STRESS..ROLL).contains(&given.row.freedom)) {
+            refuse("beside a bulk stress that changes", "a stage for each");
+        }
+    }
+    let by_actuator =
+        files.iter().flat_map(|file| &file.value.controls.0).find(|given| given.way.kind == Kind::FarEnd);
+    if let (Some(given), true) = (by_actuator, files.iter().any(|file| file.value.controls.are_steady())) {
+        let help = "tangential_force, shift or creepage";
+        judge.refuse::<()>(
+            given.span(),
+            "actuator in a case with roll = \"steady\": it would be left behind",
+            help,
+        );
     }
 }
 
@@ -104,7 +153,11 @@ fn in_the_frame_of_the_contact(
     let map = file.friction.as_ref().and_then(|friction| friction.map.as_ref());
     refuse(map.map(At::span), "friction.map");
     let frame = file.kinematics.as_ref().and_then(|given| given.value.frame.as_ref());
-    if profile.is_some_and(|profile| !profile.heights.is_empty()) {
+    let of_places = |profile: &Profile| {
+        let waves = profile.shapes.iter().any(|shape| matches!(shape, Shape::Wave { .. }));
+        waves || !profile.heights.is_empty()
+    };
+    if profile.is_some_and(of_places) {
         refuse(frame.map(At::span), "topography");
     }
     for stage in files.iter().filter(|stage| stage.value.controls.of("roll").is_some()) {

@@ -31,6 +31,7 @@ pub fn moves_along(case: &Case, grid: &SurfaceGrid, axis: usize, start: Option<&
 /// Whether the contact rolls along an axis (0: x, 1: y).
 pub fn rolls_along(case: &Case, axis: usize) -> bool {
     case.start.is_some_and(|loads| loads.roll[axis] != 0.0)
+        || axis == 0 && case.stages.iter().any(|stage| stage.steady)
         || case.stages.iter().filter_map(|stage| stage.roll[axis].as_ref()).any(|roll| !roll.path().is_zero())
 }
 
