@@ -344,6 +344,8 @@ fn rolling_back_and_forth_wears_by_what_friction_dissipates() {
     );
     assert!((last.worn_volume / (0.5 * last.dissipated_energy) - 1.0).abs() < 1e-9);
     assert!(last.dissipated_energy > 3.0 * before);
+    // the force stays, so that there is no loop of it
+    assert!(history.cycles.iter().all(|cycle| cycle.energy_ratio.is_none() && cycle.force_amplitude == 0.0));
     // it wears beyond the contact at rest, as far as the way goes
     let worn = history.fields.last().unwrap().worn_depth.as_ref().unwrap();
     let [first, end] = [
@@ -353,6 +355,16 @@ fn rolling_back_and_forth_wears_by_what_friction_dissipates() {
     println!("worn from {first} to {end} of 64");
     let free = solved(&case(0.0));
     assert!(free.steps.last().unwrap().worn_volume == 0.0, "{:e}", free.steps.last().unwrap().worn_volume);
+}
+
+/// A grid that goes with the contact moves by whole cells; another increment is refused before anything is solved.
+#[test]
+fn parts_of_cells_are_refused() {
+    let text =
+        cylinders("cells = 64\nsize = 3.2", "frame = \"contact\"", "[[load]]\nroll = 1.0\nincrements = 30\n");
+    let case = Case::from_toml(&text, "case.toml").unwrap_or_else(|error| panic!("{error}"));
+    let refused = Plan::new(case).map(|_| ()).unwrap_err().to_string();
+    assert!(refused.contains("moves by whole cells") && refused.contains("0.6667 cells"), "{refused}");
 }
 
 /// Rolling along x leaves the mirror across y, and none across its way; spin leaves none.
@@ -428,9 +440,12 @@ fn the_steady_state_is_what_marching_ends_with() {
             seconds(&steady)
         );
         assert!(off_first_law(&steady, 0.0) < 1e-9, "{:e}", off_first_law(&steady, 0.0));
-        for (a, b) in one.into_iter().zip(other) {
-            let scale = one.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
-            assert!((a - b).abs() < 2e-5 * a.abs().max(0.1 * scale), "{name}: {a:e} {b:e}");
+        let carries = 0.3 * last.normal_force;
+        let creepage = one[0].abs().max(one[1].abs());
+        let scales = [creepage, creepage, carries, carries, carries, carries * creepage];
+        for (place, (a, b)) in one.into_iter().zip(other).enumerate() {
+            // what is left of the transient, and of that of the march
+            assert!((a - b).abs() < 2e-5 * scales[place], "{name}, {place}: {a:e} {b:e}");
         }
     }
 }

@@ -193,6 +193,12 @@ class FlatPunch(TypedDict):
     """
 
 
+Frame: TypeAlias = Literal["bodies", "contact"]
+"""
+Where the grid is while a contact rolls.
+"""
+
+
 Held: TypeAlias = Literal["held"]
 
 
@@ -218,6 +224,11 @@ class Kinematics(TypedDict):
     "small": opposite points of the surfaces stay opposite, for a shift that is small against the contact; "finite": profile,
     topography and wear of the upper body move with it by its shift, and each body wears in its own frame, the lower one in that of the
     grid. A table [profile] is then the upper body's. Default: "small".
+    """
+    frame: NotRequired[Frame]
+    """
+    Where the grid is while the contact rolls: fixed to the "bodies", through which the contact travels, or with the "contact", by whole cells
+    in every increment. Default: "bodies".
     """
 
 
@@ -296,13 +307,25 @@ class Phase(TypedDict):
     """
     Of the bulk stress of the lower body.
     """
+    creepage: NotRequired[Sequence[float]]
+    """
+    Not available: creepage is the same all along a stage.
+    """
     normal_force: NotRequired[float]
     """
     Of the normal force.
     """
+    roll: NotRequired[AlongPhase]
+    """
+    Of the distance rolled.
+    """
     shift: NotRequired[Sequence[float]]
     """
     Of the shift along x and y.
+    """
+    spin: NotRequired[float]
+    """
+    Not available: spin is the same all along a stage.
     """
     tangential_force: NotRequired[Sequence[float]]
     """
@@ -461,6 +484,9 @@ class Steady(TypedDict):
     """
     Tractions, forces and motions at the end of a cycle differ from those at its start by at most this, relative.
     """
+
+
+Steady: TypeAlias = Literal["steady"]
 
 
 class StrainLife(TypedDict):
@@ -874,6 +900,9 @@ class Profile(TypedDict):
     """
 
 
+Roll: TypeAlias = Sequence[Component] | float | Steady
+
+
 class Wear(TypedDict):
     """
     Wear of the surfaces: after each computed cycle the gap grows by the wear depth.
@@ -996,6 +1025,11 @@ class Stage(TypedDict):
     """
     Which column of the table holds which control, when they are named otherwise: `tangential_force_x = "Q [N]"`.
     """
+    creepage: NotRequired[Sequence[Component]]
+    """
+    Creepage along x and y [-]: rigid displacement of the upper body by distance rolled, the same all along the stage, which has
+    a `roll`; or "held".
+    """
     cycles: NotRequired[int]
     """
     Number of cycles 0, +amplitude, -amplitude, 0 about the values before the stage.
@@ -1033,9 +1067,19 @@ class Stage(TypedDict):
     """
     How the controls run to their targets. Default: "linear".
     """
+    roll: NotRequired[Roll]
+    """
+    Distance that the contact has rolled along both surfaces, along x and y [length]: at the end, or the amplitude; or "held". A
+    number in a line contact. "steady": along x, in each increment until nothing changes any more.
+    """
     shift: NotRequired[Sequence[Component]]
     """
     Rigid tangential displacement of the upper body along x and y [length]: at the end, or the amplitude; or "held".
+    """
+    spin: NotRequired[float]
+    """
+    Spin [rad/length]: rotation of the upper body about the middle of the contact by distance rolled, the same all along the stage,
+    which has a `roll`; with `kinematics.frame = "contact"`.
     """
     table: NotRequired[str]
     """
