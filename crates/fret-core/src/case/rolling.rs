@@ -9,7 +9,7 @@ use super::misfits::{Loading, Misfit};
 use super::stage_file::{IncrementsFile, StageFile};
 use crate::document::At;
 use crate::model::controls::{BULK_STRESS, FREEDOMS, Kind, ROLL, TANGENTIAL, TILT};
-use crate::model::stage::{Course, StageControl};
+use crate::model::stage::{Course, Stage, StageControl};
 use crate::model::{CoulombFriction, Frame, Kinematics, Profile, Shape};
 
 /// Refuses what rolling cannot be combined with.
@@ -22,7 +22,7 @@ pub(super) fn rolling(
     rates(judge, loading);
     let (files, stages) = loading;
     let rolls = files.iter().any(|stage| stage.controls.of("roll").is_some())
-        || stages.is_some_and(|stages| stages.iter().any(|stage| stage.rolls()));
+        || stages.is_some_and(|stages| stages.iter().any(Stage::rolls));
     if !rolls {
         return;
     }
