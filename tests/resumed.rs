@@ -211,6 +211,19 @@ fn with_surfaces_that_move() {
     assert_eq!(Some(&kept[1]), whole.state.upper_worn_depth.as_ref());
 }
 
+/// Back and forth with wear on a grid fixed to the bodies; far and steadily on one that goes with the contact.
+#[test]
+fn with_a_contact_that_rolls() {
+    let loads = WORN.replace("shift = [60e-9, 0.0]", "roll = [15e-6, 5e-6]");
+    let whole = resumed_anywhere(&(coated() + &loads));
+    assert!(whole.steps.last().unwrap().worn_volume > 0.0);
+    let head = coated().replace("[friction]", "[kinematics]\nframe = \"contact\"\n[friction]");
+    let loads = "[[load]]\ntangential_force = [0.05, 0.0]\nincrements = 2\n[[load]]\nroll = [60e-6, 0.0]\nspin = 2.0\nincrements = 6\n\
+                 [[load]]\nroll = \"steady\"\ntangential_force = [0.1, \"held\"]\nspin = 0.0\nincrements = 2\n";
+    let whole = resumed_anywhere(&(head + loads));
+    assert!(whole.steps.last().unwrap().creepage.unwrap()[0] > 0.0);
+}
+
 /// Friction that follows the energy of each cell in cycle jumps, with wear and without.
 #[test]
 fn with_friction_that_evolves() {

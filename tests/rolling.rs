@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
+use fret_core::case::Case;
 use fret_core::history::{History, StepRecord};
+use fret_core::plan::Plan;
 use fret_validation::{off_first_law, run, solved};
 
 /// Two cylinders of one material with E* = 1 and the relative radius 100, pressed to a half-width of 1; friction 0.3.
@@ -342,6 +344,8 @@ fn rolling_back_and_forth_wears_by_what_friction_dissipates() {
     );
     assert!((last.worn_volume / (0.5 * last.dissipated_energy) - 1.0).abs() < 1e-9);
     assert!(last.dissipated_energy > 3.0 * before);
+    // the force stays, so that there is no loop of it
+    assert!(history.cycles.iter().all(|cycle| cycle.energy_ratio.is_none() && cycle.force_amplitude == 0.0));
     // it wears beyond the contact at rest, as far as the way goes
     let worn = history.fields.last().unwrap().worn_depth.as_ref().unwrap();
     let [first, end] = [
@@ -351,4 +355,116 @@ fn rolling_back_and_forth_wears_by_what_friction_dissipates() {
     println!("worn from {first} to {end} of 64");
     let free = solved(&case(0.0));
     assert!(free.steps.last().unwrap().worn_volume == 0.0, "{:e}", free.steps.last().unwrap().worn_volume);
+}
+
+/// A grid that goes with the contact moves by whole cells; another increment is refused before anything is solved.
+#[test]
+fn parts_of_cells_are_refused() {
+    let text =
+        cylinders("cells = 64\nsize = 3.2", "frame = \"contact\"", "[[load]]\nroll = 1.0\nincrements = 30\n");
+    let case = Case::from_toml(&text, "case.toml").unwrap_or_else(|error| panic!("{error}"));
+    let refused = Plan::new(case).map(|_| ()).unwrap_err().to_string();
+    assert!(refused.contains("moves by whole cells") && refused.contains("0.6667 cells"), "{refused}");
+}
+
+/// Rolling along x leaves the mirror across y, and none across its way; spin leaves none.
+#[test]
+fn rolling_keeps_the_mirror_beside_its_way() {
+    let mirrors = |stage: &str| {
+        let text = format!(
+            "[grid]\ncells = [32, 32]\nsize = [3.2, 3.2]\n[upper]\nrigid = true\n[lower]\nsubstrate = {{ young = 1.0, poisson = 0.3 }}\n\
+             [profile.sphere]\nradius = 100.0\n[friction]\ncoefficient = 0.3\n[kinematics]\nframe = \"contact\"\n\
+             [[load]]\nnormal_force = 0.01\nincrements = 1\n[[load]]\nincrements = 10\n{stage}\n"
+        );
+        let case = Case::from_toml(&text, "case.toml").unwrap_or_else(|error| panic!("{error}"));
+        Plan::new(case).unwrap_or_else(|error| panic!("{error}")).symmetry.axes()
+    };
+    assert_eq!(mirrors("roll = [1.0, 0.0]\ncreepage = [1e-3, 0.0]"), [false, true]);
+    assert_eq!(mirrors("roll = \"steady\"\ncreepage = [1e-3, 0.0]"), [false, true]);
+    assert_eq!(mirrors("roll = [0.0, 1.0]"), [true, false]);
+    assert_eq!(mirrors("roll = [1.0, 0.0]\nspin = 1e-3"), [false, false]);
+    assert_eq!(mirrors("roll = [1.0, 0.0]\ncreepage = [0.0, 1e-3]"), [false, false]);
+}
+
+/// The steady state is found without the way to it: the same as that of marching, by fewer increments.
+#[test]
+fn the_steady_state_is_what_marching_ends_with() {
+    let line = |stage: &str| cylinders("cells = 128\nsize = 3.2", "frame = \"contact\"", stage);
+    let ball = |stage: &str| {
+        format!(
+            "[grid]\ncells = [40, 40]\nsize = [2.6, 2.6]\n[upper]\nrigid = true\n[lower]\n\
+             coatings = [{{ thickness = 0.4, young = 2.0, poisson = 0.3 }}]\nsubstrate = {{ young = 1.0, poisson = 0.3 }}\n\
+             [profile.sphere]\nradius = 100.0\n[friction]\ncoefficient = 0.3\n[kinematics]\nframe = \"contact\"\n[solver]\ntolerance = 1e-9\n\
+             [[load]]\nnormal_force = 0.0146\nincrements = 3\n{stage}"
+        )
+    };
+    let half = 0.5 * 0.3 * PI / 400.0;
+    let cases = [
+        (
+            "cylinders, force",
+            line(&format!("[[load]]\ntangential_force = [{half:e}, 0.0]\nincrements = 3\n[[load]]\nWAY\n")),
+        ),
+        ("cylinders, creepage", line("[[load]]\ncreepage = [1e-3, 0.0]\nWAY\n")),
+        ("cylinders, along and across", line("[[load]]\ncreepage = [1e-3, 2e-3]\nWAY\n")),
+        ("ball, creepage", ball("[[load]]\ncreepage = [1e-3, 0.0]\nWAY\n")),
+        ("ball, creepage and spin", ball("[[load]]\ncreepage = [1e-3, 5e-4]\nspin = 2e-3\nWAY\n")),
+        ("ball, force", ball("[[load]]\ntangential_force = [1e-3, 5e-4]\nincrements = 3\n[[load]]\nWAY\n")),
+        ("ball, free", ball("[[load]]\nWAY\n")),
+    ];
+    for (name, text) in cases {
+        let way = if name.starts_with("ball") { (19.5, 300) } else { (30.0, 1200) };
+        let marched = run(&text.replace(
+            "WAY",
+            &format!(
+                "roll = {}\nincrements = {}",
+                if name.starts_with("ball") { format!("[{}, 0.0]", way.0) } else { way.0.to_string() },
+                way.1
+            ),
+        ))
+        .unwrap_or_else(|error| panic!("{name}: {error}"));
+        let steady = run(&text.replace("WAY", "roll = \"steady\"\nincrements = 1"))
+            .unwrap_or_else(|error| panic!("{name}: {error}"));
+        let numbers = |history: &History| {
+            let step = history.steps.last().unwrap();
+            let [[x, y], [qx, qy]] = [step.creepage.unwrap(), step.tangential_force];
+            [x, y, qx, qy, step.twist_moment, step.rolling_friction.unwrap()]
+        };
+        let [one, other] = [&marched, &steady].map(numbers);
+        let last = steady.steps.last().unwrap();
+        let seconds = |history: &History| history.steps.iter().map(|step| step.wall_s).sum::<f64>();
+        println!(
+            "{name}: {one:.7?} marched in {:.3} s; {other:.7?} steady after {} increments, {} convolutions, {:.3} s",
+            seconds(&marched),
+            last.parts,
+            last.work.convolutions,
+            seconds(&steady)
+        );
+        assert!(off_first_law(&steady, 0.0) < 1e-9, "{:e}", off_first_law(&steady, 0.0));
+        let carries = 0.3 * last.normal_force;
+        let creepage = one[0].abs().max(one[1].abs());
+        let scales = [creepage, creepage, carries, carries, carries, carries * creepage];
+        for (place, (a, b)) in one.into_iter().zip(other).enumerate() {
+            // what is left of the transient, and of that of the march
+            assert!((a - b).abs() < 2e-5 * scales[place], "{name}, {place}: {a:e} {b:e}");
+        }
+    }
+}
+
+/// What a steady point costs: 64 x 64 cells, coupled, in operator applications.
+#[test]
+fn a_steady_point_of_a_coated_ball_is_found_soon() {
+    let text = "[grid]\ncells = [64, 64]\nsize = [2.4, 2.4]\n[upper]\nrigid = true\n[lower]\n\
+         coatings = [{ thickness = 0.4, young = 2.0, poisson = 0.3 }]\nsubstrate = { young = 1.0, poisson = 0.3 }\n\
+         [profile.sphere]\nradius = 100.0\n[friction]\ncoefficient = 0.3\n\
+         [[load]]\nnormal_force = 0.0146\nincrements = 3\n\
+         [[load]]\nroll = \"steady\"\ncreepage = [1e-3, 5e-4]\nspin = 1e-3\nincrements = 1\n";
+    let history = run(text).unwrap_or_else(|error| panic!("{error}"));
+    let last = history.steps.last().unwrap();
+    println!(
+        "steady point: {:?} after {} increments, {} convolutions, {:.3} s",
+        last.tangential_force, last.parts, last.work.convolutions, last.wall_s
+    );
+    assert!(last.work.convolutions < 4000, "{}", last.work.convolutions);
+    let [creepage, spin] = [last.creepage.unwrap()[1], last.spin.unwrap()];
+    assert!((creepage / 5e-4 - 1.0).abs() < 1e-9 && (spin / 1e-3 - 1.0).abs() < 1e-9);
 }

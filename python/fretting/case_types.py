@@ -90,33 +90,6 @@ class CrackConstants(TypedDict):
     """
 
 
-class CrownedRoller(TypedDict):
-    """
-    A crowned roller.
-    """
-
-    axis: Axis
-    """
-    Direction of its axis.
-    """
-    crown_radius: float
-    """
-    Radius of the crown along the axis [length], positive.
-    """
-    flat_length: NotRequired[float]
-    """
-    Length of the straight middle [length]. Default: none, crowned from the middle on.
-    """
-    length: float
-    """
-    Length along the axis [length], positive, with square ends.
-    """
-    radius: float
-    """
-    Radius [length], positive.
-    """
-
-
 class Cylinder(TypedDict):
     """
     A cylinder.
@@ -220,16 +193,16 @@ class FlatPunch(TypedDict):
     """
 
 
+Frame: TypeAlias = Literal["bodies", "contact"]
+"""
+Where the grid is while a contact rolls.
+"""
+
+
 Held: TypeAlias = Literal["held"]
 
 
 Increments: TypeAlias = int | Auto
-
-
-Indenter: TypeAlias = Literal["berkovich", "vickers", "cube_corner"]
-"""
-An indenter with plane sides.
-"""
 
 
 Integration: TypeAlias = Literal["second_order", "end_point"]
@@ -251,6 +224,11 @@ class Kinematics(TypedDict):
     "small": opposite points of the surfaces stay opposite, for a shift that is small against the contact; "finite": profile,
     topography and wear of the upper body move with it by its shift, and each body wears in its own frame, the lower one in that of the
     grid. A table [profile] is then the upper body's. Default: "small".
+    """
+    frame: NotRequired[Frame]
+    """
+    Where the grid is while the contact rolls: fixed to the "bodies", through which the contact travels, or with the "contact", by whole cells
+    in every increment. Default: "bodies".
     """
 
 
@@ -329,17 +307,25 @@ class Phase(TypedDict):
     """
     Of the bulk stress of the lower body.
     """
-    mean_gap: NotRequired[float]
+    creepage: NotRequired[Sequence[float]]
     """
-    Of the mean gap.
+    Not available: creepage is the same all along a stage.
     """
     normal_force: NotRequired[float]
     """
     Of the normal force.
     """
+    roll: NotRequired[AlongPhase]
+    """
+    Of the distance rolled.
+    """
     shift: NotRequired[Sequence[float]]
     """
     Of the shift along x and y.
+    """
+    spin: NotRequired[float]
+    """
+    Not available: spin is the same all along a stage.
     """
     tangential_force: NotRequired[Sequence[float]]
     """
@@ -367,45 +353,10 @@ class Phase(TypedDict):
     """
 
 
-class Pyramid(TypedDict):
-    """
-    A pyramid.
-    """
-
-    half_angle: NotRequired[float]
-    """
-    Angle between the axis and a side [degrees], in place of that of the indenter.
-    """
-    indenter: Indenter
-    """
-    A three-sided Berkovich indenter (65.27 degrees), a four-sided Vickers (68 degrees), or the corner of a cube (three sides, 35.264
-    degrees). The first side faces x.
-    """
-
-
 Ramp: TypeAlias = Literal["linear", "square", "cubic"]
 """
 How a ramp runs.
 """
-
-
-class RectangularPunch(TypedDict):
-    """
-    A rectangular flat punch.
-    """
-
-    edge_radius: NotRequired[float]
-    """
-    Radius of the rounding around the flat [length], positive. Default: sharp edges, no body beyond.
-    """
-    length_x: float
-    """
-    Length of the flat along x [length], positive.
-    """
-    length_y: float
-    """
-    Length of the flat along y [length], positive.
-    """
 
 
 Resample: TypeAlias = Literal["none", "linear"]
@@ -505,21 +456,6 @@ class Sphere(TypedDict):
     """
 
 
-class SpheroCone(TypedDict):
-    """
-    A cone with a spherical tip.
-    """
-
-    radius: float
-    """
-    Radius of the tip [length], positive.
-    """
-    slope: float
-    """
-    Slope of the side against the surface, positive: the tangent of the angle between them.
-    """
-
-
 class Springs(TypedDict):
     """
     Springs of no thickness between a coating and what lies below it: displacement jumps by traction over stiffness.
@@ -548,6 +484,9 @@ class Steady(TypedDict):
     """
     Tractions, forces and motions at the end of a cycle differ from those at its start by at most this, relative.
     """
+
+
+Steady: TypeAlias = Literal["steady"]
 
 
 class StrainLife(TypedDict):
@@ -678,21 +617,6 @@ WornBody: TypeAlias = Literal["upper", "lower"]
 """
 One of the bodies.
 """
-
-
-class WornSphere(TypedDict):
-    """
-    A worn or truncated sphere.
-    """
-
-    flat_radius: float
-    """
-    Radius of the flat [length], positive.
-    """
-    radius: float
-    """
-    Radius of the sphere [length], positive.
-    """
 
 
 Component: TypeAlias = float | Held
@@ -946,10 +870,6 @@ class Profile(TypedDict):
     """
     A blunt cone, slope r.
     """
-    crowned_roller: NotRequired[CrownedRoller]
-    """
-    A roller of finite length with a crown along its axis.
-    """
     cylinder: NotRequired[Cylinder]
     """
     A cylinder, as the parabola s^2 / (2 R) across its axis.
@@ -966,14 +886,6 @@ class Profile(TypedDict):
     """
     Measured or synthetic topography, one height per cell.
     """
-    pyramid: NotRequired[Pyramid]
-    """
-    A pyramid, tip first: an indenter by its angle.
-    """
-    rectangular_punch: NotRequired[RectangularPunch]
-    """
-    A rectangular flat punch, with sharp or rounded edges.
-    """
     rounded_punch: NotRequired[RoundedPunch]
     """
     A flat punch with a rounded edge: flat within b, (r - b)^2 / (2 R) beyond.
@@ -982,18 +894,13 @@ class Profile(TypedDict):
     """
     A sphere, as the paraboloid r^2 / (2 R).
     """
-    sphero_cone: NotRequired[SpheroCone]
-    """
-    A cone with a spherical tip: r^2 / (2 R) up to the radius R slope, slope (r - R slope / 2) beyond.
-    """
     wave: NotRequired[Wave]
     """
     A sinusoidal surface amplitude (1 - cos(2 pi x / Lx) cos(2 pi y / Ly)).
     """
-    worn_sphere: NotRequired[WornSphere]
-    """
-    A worn or truncated sphere: flat within b, (r^2 - b^2) / (2 R) beyond.
-    """
+
+
+Roll: TypeAlias = Sequence[Component] | float | Steady
 
 
 class Wear(TypedDict):
@@ -1118,6 +1025,11 @@ class Stage(TypedDict):
     """
     Which column of the table holds which control, when they are named otherwise: `tangential_force_x = "Q [N]"`.
     """
+    creepage: NotRequired[Sequence[Component]]
+    """
+    Creepage along x and y [-]: rigid displacement of the upper body by distance rolled, the same all along the stage, which has
+    a `roll`; or "held".
+    """
     cycles: NotRequired[int]
     """
     Number of cycles 0, +amplitude, -amplitude, 0 about the values before the stage.
@@ -1139,11 +1051,6 @@ class Stage(TypedDict):
     Number of increments: per stage; with cycles, per cycle; with a table, per row. "auto": 16 per stage, 32 per cycle, 4 per
     row, each with adaptive sub-steps controlled by `solver.history_tolerance`.
     """
-    mean_gap: NotRequired[float]
-    """
-    Mean gap between the surfaces [length], of periodic half-spaces, which have no approach: at the end of the stage, or the
-    amplitude.
-    """
     name: NotRequired[str]
     """
     A name for messages and tables.
@@ -1160,9 +1067,19 @@ class Stage(TypedDict):
     """
     How the controls run to their targets. Default: "linear".
     """
+    roll: NotRequired[Roll]
+    """
+    Distance that the contact has rolled along both surfaces, along x and y [length]: at the end, or the amplitude; or "held". A
+    number in a line contact. "steady": along x, in each increment until nothing changes any more.
+    """
     shift: NotRequired[Sequence[Component]]
     """
     Rigid tangential displacement of the upper body along x and y [length]: at the end, or the amplitude; or "held".
+    """
+    spin: NotRequired[float]
+    """
+    Spin [rad/length]: rotation of the upper body about the middle of the contact by distance rolled, the same all along the stage,
+    which has a `roll`; with `kinematics.frame = "contact"`.
     """
     table: NotRequired[str]
     """

@@ -42,8 +42,9 @@ class History:
         ``full_grid_convolutions``, ``tilt_x``, ``tilt_y``, ``tilt_moment_x``, ``tilt_moment_y``, ``bulk_stress_x``,
         ``bulk_stress_y`` (of the lower body), ``upper_bulk_stress_x``, ``upper_bulk_stress_y``, ``bulk_work``,
         ``actuator_x``, ``actuator_y``, ``actuator_approach``, ``friction_coefficient`` (mean over the contact, weighted
-        with the pressure), ``elastic_energy``, ``external_work``, ``wear_work``, ``unresolved_energy``, ``mean_gap``
-        (NaN where surfaces do not repeat) (float); ``regime`` (str).
+        with the pressure), ``elastic_energy``, ``external_work``, ``wear_work``, ``unresolved_energy``, ``roll_x``,
+        ``roll_y``, ``creepage_x``, ``creepage_y``, ``spin``, ``rolling_friction`` (the last four by
+        distance rolled), ``mean_gap`` (NaN where surfaces do not repeat) (float); ``regime`` (str).
     x, y : ndarray
         Coordinates of the cell centres [length], shapes (nx,) and (ny,); of a line contact `y` is one zero.
     stages : list of str

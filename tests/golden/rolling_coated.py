@@ -1,8 +1,9 @@
 """Force by creepage of two like coated cylinders that roll and stick everywhere: numbers of `tests/rolling.rs`, printed.
 
-The response along the surface of a bilayer in plane strain is C_ll(k) of O'Sullivan & King (1988). Of a cell's uniform shear the displacement
-is that of the coating's half-space, in closed form, and an integral that decays like exp(-2 k h), by quadrature. A particle was one cell further
-ahead an increment ago, so that without slip xi d = u_i - u_(i+1) in every cell of the contact: a dense system for the shear of its cells.
+The response along the surface of a bilayer in plane strain is C_ll(k) of O'Sullivan & King (1988). Of a cell's uniform
+shear the displacement is that of the coating's half-space, in closed form, and an integral that decays like
+exp(-2 k h), by quadrature. A particle was one cell further ahead an increment ago, so that without slip
+xi d = u_i - u_(i+1) in every cell of the contact: a dense system for the shear of its cells.
 
 Check: without a coating the force tends to pi a E* xi / 2 (Carter).
 """
@@ -43,7 +44,8 @@ def difference(m, d, young):
         return beyond * np.sinc(k * d / 2 / np.pi) * 2 * np.sin(k * (m + 0.5) * d) * np.sin(k * d / 2)
 
     edges = [1e-12, *np.linspace(0.05, 1, 20) * 25 / THICKNESS]
-    parts = [quad(rest, a, b, epsabs=1e-15, epsrel=1e-12, limit=400)[0] for a, b in zip(edges[:-1], edges[1:], strict=True)]
+    between = zip(edges[:-1], edges[1:], strict=True)
+    parts = [quad(rest, a, b, epsabs=1e-15, epsrel=1e-12, limit=400)[0] for a, b in between]
     closed = (1 - POISSON) / shear * d / np.pi * (of_half_space(m) - of_half_space(m + 1))
     return 2 * (closed + d / np.pi * sum(parts))
 

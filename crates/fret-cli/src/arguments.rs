@@ -45,7 +45,7 @@ pub enum Verb {
     },
     /// Write a case to begin with, with units and comments; without a name the list of them
     Init {
-        /// Which one: ball-on-flat, coated, cylinder, rig-log, wear, rough, indentation
+        /// Which one: ball-on-flat, coated, cylinder, rig-log, wear, rolling, rough, indentation
         template: Option<String>,
         /// The file to write [default: the name with .toml]
         #[arg(long, short, value_name = "FILE", requires = "template")]

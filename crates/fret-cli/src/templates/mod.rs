@@ -26,12 +26,13 @@ macro_rules! template {
 }
 
 /// All of them, in the order of a first acquaintance.
-pub const TEMPLATES: [Template; 7] = [
+pub const TEMPLATES: [Template; 8] = [
     template!("ball-on-flat", "steel ball on steel, one fretting loop in partial slip", []),
     template!("coated", "ball on a hard coating, one loop, stresses below", []),
     template!("cylinder", "fretting-fatigue test: cylinder on a flat with bulk stress, lives", []),
     template!("rig-log", "ball on flat behind a compliant rig, for `fret identify`", []),
     template!("wear", "wear of 2,000 cycles in gross slip", []),
+    template!("rolling", "a ball that rolls on a coating and pulls: its creepage", []),
     template!("rough", "a measured surface, filtered and resampled", ["rough-heights.txt"]),
     template!("indentation", "load and depth of a sphere on a film", []),
 ];

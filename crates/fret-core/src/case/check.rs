@@ -98,7 +98,7 @@ pub(super) fn case(
         sliding(&mut judge, friction, &file.load, stages, limit);
     }
     let kinematics = kinematics(&mut judge, &Concerned { file: &file, loading });
-    rolling(&mut judge, &file, loading, (kinematics, profile.as_ref()));
+    rolling(&mut judge, &file, loading, (kinematics, profile.as_ref(), laws.as_deref()));
     let wears = (file.wear.as_ref(), file.stress.as_ref(), kinematics);
     let wear = wear(&mut judge, wears, (bodies.as_ref(), files), stages.as_deref(), frictionless);
     let output = output(&mut judge, file.output.as_ref());

@@ -33,6 +33,23 @@ pub(super) enum AlongFile {
     Line(f64),
 }
 
+/// The word for what rolls until nothing changes any more.
+#[derive(Debug, Clone, Copy, PartialEq, Table, JsonSchema)]
+#[schemars(rename_all = "lowercase", description = "")]
+pub(super) enum SteadyWord {
+    Steady,
+}
+
+/// Values along x and y that may be held; in a line contact one number; or the word "steady".
+#[derive(Debug, Clone, Copy, PartialEq, Table, JsonSchema)]
+#[expected("two values [x, y], one number in a line contact, or \"steady\"")]
+#[schemars(untagged, rename = "RollSchema", description = "")]
+pub(super) enum RollFile {
+    Both([AxisFile; 2]),
+    Line(f64),
+    Steady(SteadyWord),
+}
+
 /// Two numbers along x and y; one where both are alike, or in a line contact.
 #[derive(Debug, Clone, Copy, PartialEq, Table, JsonSchema)]
 #[expected("two values [x, y], or one number in a line contact")]
@@ -42,7 +59,7 @@ pub(super) enum BothOrOne {
     Line(f64),
 }
 
-/// What stands at the key of a control: one number, or one along each axis; `None` where it is held.
+/// What stands at the key of a control: one number, or one along each axis; `None` where it is held; nothing at all where it is "steady".
 pub(super) struct Given {
     pub row: &'static ControlRow,
     pub way: &'static Way,
@@ -68,9 +85,33 @@ impl ControlKeys {
         self.0.iter().find(|given| given.way.name == name)
     }
 
+    /// Whether the contact is to roll until nothing changes any more.
+    pub fn are_steady(&self) -> bool {
+        self.of("roll").is_some_and(|roll| roll.values.is_empty())
+    }
+
     /// Where the first control of some degrees of freedom stands.
     pub fn place(&self, freedoms: Range<usize>) -> Option<Range<usize>> {
         self.0.iter().find(|given| freedoms.contains(&given.row.freedom)).map(Given::span)
+    }
+}
+
+impl RollFile {
+    fn values(self) -> Vec<Option<f64>> {
+        match self {
+            Self::Both(both) => both.map(Into::into).to_vec(),
+            Self::Line(one) => vec![Some(one)],
+            Self::Steady(SteadyWord::Steady) => Vec::new(),
+        }
+    }
+}
+
+impl BothOrOne {
+    fn values(self) -> Vec<Option<f64>> {
+        match self {
+            Self::Both(both) => both.map(Some).to_vec(),
+            Self::Line(one) => vec![Some(one)],
+        }
     }
 }
 
@@ -82,7 +123,7 @@ impl From<AxisFile> for Option<f64> {
 
 /// The keys of the table of controls, with what stands for one axis, what for both where one number may do, and their descriptions.
 macro_rules! keys {
-    ($($keys:ident: $axis:ty, $along:ident, $about:ident;)*) => {$(
+    ($($keys:ident: $axis:ty, $along:ident, $roll:ty, $about:ident;)*) => {$(
         impl Keys for $keys {
             fn keys() -> Vec<&'static str> {
                 ways().map(|(_, way)| way.name).collect()
@@ -97,6 +138,7 @@ macro_rules! keys {
                             $along::Both(both) => both.map(Into::into).to_vec(),
                             $along::Line(one) => vec![Some(*one)],
                         }),
+                        Form::PairNumberOrSteady => key(way, table, reader, |roll: &$roll| roll.values()),
                     }?;
                     Some(Given { row, way, values, span })
                 };
@@ -116,6 +158,7 @@ macro_rules! keys {
                         Form::Number => generator.subschema_for::<Option<f64>>(),
                         Form::Pair => generator.subschema_for::<Option<[$axis; 2]>>(),
                         Form::PairOrNumber => generator.subschema_for::<Option<$along>>(),
+                        Form::PairNumberOrSteady => generator.subschema_for::<Option<$roll>>(),
                     };
                     schema.insert("description".to_owned(), way.$about.into());
                     properties.insert(way.name.to_owned(), schema.into());
@@ -127,8 +170,8 @@ macro_rules! keys {
 }
 
 keys! {
-    ControlKeys: AxisFile, AlongFile, about;
-    PhaseKeys: f64, BothOrOne, phase;
+    ControlKeys: AxisFile, AlongFile, RollFile, about;
+    PhaseKeys: f64, BothOrOne, BothOrOne, phase;
 }
 
 /// What stands at the key of a control, and where.

@@ -25,7 +25,10 @@ pub(super) fn kinematics(judge: &mut Judge, concerned: &Concerned<'_>) -> Kinema
     let moves_with = file.friction.as_ref().and_then(|friction| friction.moves_with.as_ref());
     let displacement = given.map_or_else(Displacement::default, |given| given.value);
     let frame = file.kinematics.as_ref().and_then(|given| given.value.frame.as_ref());
-    let frame = frame.map_or_else(Frame::default, |given| given.value);
+    // A contact that rolls on and on stays where it is.
+    let is_steady = concerned.loading.0.iter().any(|stage| stage.value.controls.are_steady());
+    let default = if is_steady { Frame::Contact } else { Frame::Bodies };
+    let frame = frame.map_or(default, |given| given.value);
     let kinematics = Kinematics {
         displacement,
         friction_of_upper: moves_with.is_some_and(|given| given.value == Side::Upper),

@@ -6,23 +6,23 @@ use super::control_keys::Given;
 use super::file::CaseFile;
 use super::judge::Judge;
 use super::misfits::{Loading, Misfit};
-use super::stage_file::IncrementsFile;
+use super::stage_file::{IncrementsFile, StageFile};
 use crate::document::At;
-use crate::model::controls::{BULK_STRESS, FREEDOMS, Kind, ROLL, TILT};
-use crate::model::stage::{Course, StageControl};
-use crate::model::{Frame, Kinematics, Profile, Shape};
+use crate::model::controls::{BULK_STRESS, FREEDOMS, Kind, ROLL, TANGENTIAL, TILT};
+use crate::model::stage::{Course, Stage, StageControl};
+use crate::model::{CoulombFriction, Frame, Kinematics, Profile, Shape};
 
 /// Refuses what rolling cannot be combined with.
 pub(super) fn rolling(
     judge: &mut Judge,
     file: &CaseFile,
     loading: Loading<'_>,
-    (kinematics, profile): (Kinematics, Option<&Profile>),
+    (kinematics, profile, laws): (Kinematics, Option<&Profile>, Option<&[&CoulombFriction]>),
 ) {
     rates(judge, loading);
     let (files, stages) = loading;
     let rolls = files.iter().any(|stage| stage.controls.of("roll").is_some())
-        || stages.is_some_and(|stages| stages.iter().any(|stage| stage.rolls()));
+        || stages.is_some_and(|stages| stages.iter().any(Stage::rolls));
     if !rolls {
         return;
     }
@@ -50,8 +50,9 @@ pub(super) fn rolling(
         roll.refuse(judge, loading, "of a profile that does not roll: it has an edge, a flat or a tip", help);
     }
     beside(judge, loading, kinematics);
+    steady(judge, loading, kinematics);
     if kinematics.frame == Frame::Contact {
-        in_the_frame_of_the_contact(judge, file, loading, profile);
+        in_the_frame_of_the_contact(judge, file, loading, (profile, laws));
     }
 }
 
@@ -75,14 +76,66 @@ fn beside(judge: &mut Judge, loading: Loading<'_>, kinematics: Kinematics) {
     }
 }
 
+/// Refuses what has no steady state.
+fn steady(judge: &mut Judge, (files, _): Loading<'_>, kinematics: Kinematics) {
+    for file in files.iter().filter(|file| file.value.controls.are_steady()) {
+        let stage = &file.value;
+        let span = stage.controls.of("roll").map_or_else(|| file.span(), Given::span);
+        let mut refuse = |why: &str, help: &str| {
+            judge.refuse::<()>(span.clone(), format!("roll = \"steady\" {why}"), help)
+        };
+        if kinematics.frame == Frame::Bodies {
+            refuse(
+                "with kinematics.frame = \"bodies\": the contact would leave the grid",
+                "frame = \"contact\"",
+            );
+        }
+        if stage.cycles.is_some() || stage.until_steady.is_some() {
+            refuse(
+                "in cycles, which have no steady state of this kind",
+                "no cycles; or roll = a distance, until_steady = 1e-3",
+            );
+        }
+        if matches!(stage.increments, IncrementsFile::Auto(_)) {
+            refuse("with increments = \"auto\"", "a number of increments: each ends in a steady state");
+        }
+        let motion = stage.controls.0.iter().find(|given| {
+            (TANGENTIAL..TILT).contains(&given.row.freedom)
+                && matches!(given.way.kind, Kind::Motion | Kind::FarEnd)
+                && given.values.iter().any(Option::is_some)
+        });
+        if let Some(given) = motion {
+            let why = format!("beside {}: what moves on steadily does so by distance rolled", given.way.name);
+            refuse(&why, "creepage and spin, or a force");
+        }
+        if stage.controls.0.iter().any(|given| (BULK_STRESS..ROLL).contains(&given.row.freedom)) {
+            refuse("beside a bulk stress that changes", "a stage for each");
+        }
+    }
+    let by_actuator =
+        files.iter().flat_map(|file| &file.value.controls.0).find(|given| given.way.kind == Kind::FarEnd);
+    if let (Some(given), true) = (by_actuator, files.iter().any(|file| file.value.controls.are_steady())) {
+        let help = "tangential_force, shift or creepage";
+        judge.refuse::<()>(
+            given.span(),
+            "actuator in a case with roll = \"steady\": it would be left behind",
+            help,
+        );
+    }
+}
+
 /// Refuses what is fixed to bodies that travel through the grid.
 fn in_the_frame_of_the_contact(
     judge: &mut Judge,
     file: &CaseFile,
     (files, _): Loading<'_>,
-    profile: Option<&Profile>,
+    (profile, laws): (Option<&Profile>, Option<&[&CoulombFriction]>),
 ) {
-    for stage in files.iter().filter(|stage| stage.value.controls.of("roll").is_some()) {
+    let marched = || {
+        let rolls = |stage: &&At<StageFile>| stage.value.controls.of("roll").is_some();
+        files.iter().filter(rolls).filter(|stage| !stage.value.controls.are_steady())
+    };
+    for stage in marched() {
         if matches!(stage.value.increments, IncrementsFile::Auto(_)) {
             judge.refuse::<()>(
                 stage.value.controls.of("roll").map_or_else(|| stage.span(), Given::span),
@@ -101,13 +154,20 @@ fn in_the_frame_of_the_contact(
     refuse(file.wear.as_ref().map(At::span), "wear");
     let evolution = file.friction.as_ref().and_then(|friction| friction.evolution.as_ref());
     refuse(evolution.map(At::span), "friction.evolution");
-    let map = file.friction.as_ref().and_then(|friction| friction.map.as_ref());
-    refuse(map.map(At::span), "friction.map");
-    let frame = file.kinematics.as_ref().and_then(|given| given.value.frame.as_ref());
-    if profile.is_some_and(|profile| !profile.heights.is_empty()) {
-        refuse(frame.map(At::span), "topography");
+    // At the frame; where that follows from a steady roll, at this.
+    let frame = file.kinematics.as_ref().and_then(|given| given.value.frame.as_ref()).map(At::span);
+    let roll = || files.iter().find_map(|stage| stage.value.controls.of("roll")).map(Given::span);
+    if laws.is_some_and(|laws| laws.iter().any(|law| law.is_map())) {
+        refuse(frame.clone().or_else(roll), "a friction map");
     }
-    for stage in files.iter().filter(|stage| stage.value.controls.of("roll").is_some()) {
+    let of_places = |profile: &Profile| {
+        let waves = profile.shapes.iter().any(|shape| matches!(shape, Shape::Wave { .. }));
+        waves || !profile.heights.is_empty()
+    };
+    if profile.is_some_and(of_places) {
+        refuse(frame.or_else(roll), "topography");
+    }
+    for stage in marched() {
         let stress =
             stage.value.controls.0.iter().find(|given| (BULK_STRESS..ROLL).contains(&given.row.freedom));
         refuse(stress.map(Given::span), "a bulk stress that changes while the contact rolls");
@@ -140,7 +200,7 @@ fn rates(judge: &mut Judge, (files, stages): Loading<'_>) {
                     format!("{name} without roll in its stage: it is a motion by distance rolled"),
                     "roll = [x, y], the distance rolled at the end of the stage",
                 );
-            } else if stage.is_some_and(|stage| matches!(stage.course, Course::Cycles(_))) {
+            } else if stage.is_some_and(|stage| !stage.steady && matches!(stage.course, Course::Cycles(_))) {
                 judge.refuse::<()>(
                     given.span(),
                     format!("{name} in cycles: it is the same all along a stage"),
@@ -153,6 +213,7 @@ fn rates(judge: &mut Judge, (files, stages): Loading<'_>) {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
     use crate::case::check::tests::{ROLLER, read, refused};
 
     fn with(stage: &str) -> String {
@@ -174,5 +235,29 @@ mod tests {
         let contact = ("[friction]", "[kinematics]\nframe = \"contact\"\n[friction]");
         let worn = with("roll = 1.0") + "[wear]\ncoefficient = 1e-3\n";
         refused(ROLLER, &[contact, ("increments = 1\n", &worn)], "travel through the grid", "[wear]");
+        let auto = "increments = 1\n[[load]]\nroll = 1.0\nincrements = \"auto\"\n";
+        refused(ROLLER, &[contact, ("increments = 1\n", auto)], "whole cells", "1.0");
+        let punch =
+            ("[profile.cylinder]\nradius = 100.0\naxis = \"y\"", "[profile.flat_punch]\nradius = 0.5");
+        refused(ROLLER, &[punch, ("increments = 1\n", &one)], "an edge, a flat or a tip", "1.0");
+        let tilted = with("roll = 1.0\ntilt = 1e-3");
+        refused(ROLLER, &[("increments = 1\n", &tilted)], "middle of the grid", "1e-3");
+    }
+
+    #[test]
+    fn what_has_no_steady_state_is_refused() {
+        let steady = with("roll = \"steady\"\ncreepage = [1e-4, 0.0]");
+        let case = read(ROLLER, &[("increments = 1\n", &steady)]);
+        assert!(case.stages[1].steady && case.stages[1].rates() == [Some(1e-4), Some(0.0), None]);
+        // the grid goes with it
+        assert_eq!(case.kinematics.frame, Frame::Contact);
+        let bodies = ("[friction]", "[kinematics]\nframe = \"bodies\"\n[friction]");
+        refused(ROLLER, &[bodies, ("increments = 1\n", &steady)], "would leave the grid", "\"steady\"");
+        let driven = with("roll = \"steady\"\nshift = [1e-4, 0.0]");
+        refused(ROLLER, &[("increments = 1\n", &driven)], "does so by distance rolled", "\"steady\"");
+        let auto = "increments = 1\n[[load]]\nroll = \"steady\"\nincrements = \"auto\"\n";
+        refused(ROLLER, &[("increments = 1\n", auto)], "increments = \"auto\"", "\"steady\"");
+        let cycles = with("roll = \"steady\"\ncycles = 3");
+        refused(ROLLER, &[("increments = 1\n", &cycles)], "no steady state", "\"steady\"");
     }
 }

@@ -234,6 +234,7 @@ fn stage(
         tilt: [tilt_x, tilt_y],
         bulk_stress: [[lower_x, lower_y], [upper_x, upper_y]],
         roll: [roll_x, roll_y],
+        steady: file.controls.are_steady(),
         increments,
         history_tolerance: auto.then_some(tolerance),
         course: here.course().unwrap_or(Course::Linear),
@@ -249,7 +250,7 @@ fn stage(
     }
     let Here { judge, place, .. } = here;
     let starts_free = index == 0 && judge.attachments.start.is_none();
-    let says_nothing = stage.controls().next().is_none() && file.friction.is_none();
+    let says_nothing = stage.controls().next().is_none() && !stage.steady && file.friction.is_none();
     // Without friction a shift moves nothing but surfaces that move with their bodies.
     let by_motion = judge.moves && stage.tangential.iter().flatten().all(StageControl::is_motion);
     if frictionless && !by_motion && stage.is_tangential_beyond_rest() {

@@ -140,15 +140,6 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
     real("wall_s", "time spent on the increment", SECONDS, |step| step.wall_s),
     count("contact_cells", "cells in contact", NO_UNIT, |step| step.contact_cells),
     count("stick_cells", "stick cells", NO_UNIT, |step| step.stick_cells),
-    real("roll_x", "distance that the contact has rolled along x", LENGTH, |step| step.roll[0]),
-    real("roll_y", "distance that the contact has rolled along y", LENGTH, |step| step.roll[1]),
-    real_or_none("creepage_x", "displacement of the upper body along x by distance rolled", RATIO, |step| {
-        step.creepage.map(|creepage| creepage[0])
-    }),
-    real_or_none("creepage_y", "displacement of the upper body along y by distance rolled", RATIO, |step| {
-        step.creepage.map(|creepage| creepage[1])
-    }),
-    real_or_none("spin", "rotation of the upper body by distance rolled", "rad/length", |step| step.spin),
     word(
         "regime",
         "sliding condition: apart, full_stick, partial_slip, gross_slip or frictionless",
@@ -163,7 +154,7 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
     ),
     count(
         "parts",
-        "number of sub-steps: more than 1 with increments = \"auto\", or where the whole increment did not converge",
+        "number of sub-steps: more than 1 with increments = \"auto\", on the way to a steady state of rolling, or where the whole increment did not converge",
         NO_UNIT,
         |step| step.parts,
     ),
@@ -229,6 +220,27 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
         "what increments of finite length leave unresolved of the energy balance since the start, an error bar of dissipated_energy",
         WORK,
         |step| step.unresolved_energy,
+    ),
+    real("roll_x", "distance that the contact has rolled along x", LENGTH, |step| step.roll[0]),
+    real("roll_y", "distance that the contact has rolled along y", LENGTH, |step| step.roll[1]),
+    real(
+        "creepage_x",
+        "displacement of the upper body along x by distance rolled; 0 where it does not roll",
+        RATIO,
+        |step| step.creepage.map_or(0.0, |creepage| creepage[0]),
+    ),
+    real("creepage_y", "the same along y", RATIO, |step| step.creepage.map_or(0.0, |creepage| creepage[1])),
+    real(
+        "spin",
+        "rotation of the upper body by distance rolled; 0 where it does not roll",
+        "rad/length",
+        |step| step.spin.unwrap_or(0.0),
+    ),
+    real(
+        "rolling_friction",
+        "energy that friction dissipates in the increment by distance rolled; 0 where it does not roll",
+        FORCE,
+        |step| step.rolling_friction.unwrap_or(0.0),
     ),
     real_or_none("mean_gap", "mean gap between surfaces that repeat", LENGTH, |step| step.mean_gap),
 ];

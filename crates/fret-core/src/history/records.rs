@@ -85,6 +85,8 @@ pub struct StepRecord {
     pub creepage: Option<[f64; 2]>,
     /// Its rotation by distance rolled [rad/length], likewise.
     pub spin: Option<f64>,
+    /// Energy that friction dissipates in the increment by distance rolled [force], likewise.
+    pub rolling_friction: Option<f64>,
     /// What the contact does.
     pub regime: Regime,
     /// How well the equations hold.

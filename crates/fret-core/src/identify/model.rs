@@ -143,6 +143,7 @@ fn driven(control: StageControl, increments: usize) -> Stage {
         tilt: [None, None],
         bulk_stress: [[None, None], [None, None]],
         roll: [None, None],
+        steady: false,
         increments,
         history_tolerance: None,
         course: Course::Linear,

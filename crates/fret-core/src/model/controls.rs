@@ -46,6 +46,8 @@ pub enum Form {
     Pair,
     /// Two, along x and y; a number in a line contact.
     PairOrNumber,
+    /// The same, or the word "steady".
+    PairNumberOrSteady,
 }
 
 /// One way to prescribe a control.
@@ -239,12 +241,12 @@ pub static CONTROLS: [ControlRow; 7] = [
     },
     ControlRow {
         freedom: ROLL,
-        form: Form::PairOrNumber,
+        form: Form::PairNumberOrSteady,
         ways: &[Way {
             kind: Motion,
             name: "roll",
             unit: "length",
-            about: "Distance that the contact has rolled along both surfaces, along x and y [length]: at the end, or the amplitude; or \"held\". A\nnumber in a line contact.",
+            about: "Distance that the contact has rolled along both surfaces, along x and y [length]: at the end, or the amplitude; or \"held\". A\nnumber in a line contact. \"steady\": along x, in each increment until nothing changes any more.",
             phase: "Of the distance rolled.",
         }],
     },

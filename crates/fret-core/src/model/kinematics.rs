@@ -38,6 +38,7 @@ pub struct Kinematics {
     /// Whether a friction map is the upper body's, and moves with it.
     pub friction_of_upper: bool,
     /// Where the grid is while the contact rolls.
+    #[serde(default)]
     pub frame: Frame,
 }
 

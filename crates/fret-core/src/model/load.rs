@@ -50,6 +50,7 @@ pub struct LoadStep {
     /// Bulk stress of the substrates of the lower and the upper body, each along x and y [pressure], tension positive.
     pub bulk_stress: [[f64; 2]; 2],
     /// Distance rolled along x and y [length].
+    #[serde(default)]
     pub roll: [f64; 2],
 }
 

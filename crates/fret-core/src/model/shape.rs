@@ -320,6 +320,11 @@ impl Shape {
             Self::RoundedPunch { .. } => "rounded_punch",
             Self::FlatPunch { .. } => "flat_punch",
             Self::Cone { .. } => "cone",
+            Self::SpheroCone { .. } => "sphero_cone",
+            Self::WornSphere { .. } => "worn_sphere",
+            Self::Pyramid { .. } => "pyramid",
+            Self::RectangularPunch { .. } => "rectangular_punch",
+            Self::CrownedRoller { .. } => "crowned_roller",
             Self::Wave { .. } => "wave",
         }
     }

@@ -27,6 +27,9 @@ pub struct Stage<M = CellMap> {
     /// What changes of the distance rolled along x and y, if anything.
     #[serde(default, skip_serializing_if = "are_none")]
     pub roll: [Option<StageControl>; 2],
+    /// Whether each increment ends where nothing changes any more as the contact rolls on along x.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub steady: bool,
     /// Increments of the stage, or of one cycle, all rows of a table included.
     pub increments: usize,
     /// Each increment is solved in as many parts as this bound on the error of its history asks for (in shares of the way that the
@@ -281,7 +284,16 @@ impl<M> Stage<M> {
 
     /// Whether the stage rolls.
     pub fn rolls(&self) -> bool {
-        self.roll.iter().any(Option::is_some)
+        self.steady || self.roll.iter().any(Option::is_some)
+    }
+
+    /// What the upper body moves by distance rolled, along x, y and about z, where that is prescribed.
+    pub fn rates(&self) -> [Option<f64>; 3] {
+        let of = |control: &Option<StageControl>| match control {
+            Some(StageControl::Rate(rate)) => Some(rate.last()),
+            _ => None,
+        };
+        [of(&self.tangential[0]), of(&self.tangential[1]), of(&self.twist)]
     }
 
     /// Whether the stage prescribes a tilt or its moment.

@@ -69,6 +69,7 @@ pub struct ContactState {
     /// Bulk stress of the lower and of the upper substrate along x and y [pressure].
     pub bulk_stress: [[f64; 2]; 2],
     /// Distance that the contact has rolled along x and y [length].
+    #[serde(default)]
     pub roll: [f64; 2],
     /// Energy dissipated by friction since the start [force x length]; with wear that of all cycles that computed ones stand for.
     pub dissipated_energy: f64,

@@ -84,7 +84,8 @@ pub fn left_out(
             &format!("every tangential iteration of the first {increments} increments"),
         );
     }
-    if coupling != Coupling::Coupled && !moves && leave_out.takes(Simplification::Pressure) {
+    let stays = !moves && !case.rolls();
+    if coupling != Coupling::Coupled && stays && leave_out.takes(Simplification::Pressure) {
         let increments = increments_at_one_load(case);
         if increments > 0 {
             leave(

@@ -27,7 +27,7 @@ pub use extent::ExpectedContact;
 use extent::{COARSE, Unexpected, automatic_size, expected_contact, reaches_beyond};
 pub use left_out::LeftOut;
 pub use memory::of_stress as memory_of_stress;
-use moving::{moves_along, parts_of_cells, with_room_to_move};
+use moving::{in_whole_cells, moves_along, with_room_to_move};
 pub use simplification::{LeaveOut, Simplification};
 use sliding_extent::with_room_to_slide;
 
@@ -170,16 +170,7 @@ impl Plan {
             );
             return Err(case.refuse_size(message, case.way_from_the_edge()));
         }
-        if let Some((stage, cells)) = parts_of_cells(&case, &grid) {
-            let message = format!(
-                "grid.size: an increment of stage {:?} rolls by {cells:.4} cells; kinematics.frame = \"contact\" moves by whole cells",
-                case.stages[stage].name
-            );
-            return Err(case.refuse_size(
-                message,
-                "roll = a whole number of cells times increments, with grid.size given; or frame = \"bodies\"",
-            ));
-        }
+        in_whole_cells(&case, &grid)?;
         let has_datum = case.is_line() && case.bodies.has_elastic_base();
         let datum = has_datum.then(|| case.datum.unwrap_or(size[0]));
         let along = left_out::one_way(&case, &grid, &response, coupling, state)

@@ -1,7 +1,7 @@
 //! Whether the surfaces of a case move against each other by more than half a hundredth of a cell, and how much room that takes.
 
 use super::loaded::is_loaded;
-use crate::case::{Case, walk};
+use crate::case::{Case, CaseError, walk};
 use crate::model::{ContactState, Control, Frame, LoadStep, Motion, SurfaceGrid};
 
 /// Whether the upper body moves along an axis (0: x, 1: y) by more than positions of surfaces are rounded to, as far as the case tells. Where a
@@ -31,11 +31,26 @@ pub fn moves_along(case: &Case, grid: &SurfaceGrid, axis: usize, start: Option<&
 /// Whether the contact rolls along an axis (0: x, 1: y).
 pub fn rolls_along(case: &Case, axis: usize) -> bool {
     case.start.is_some_and(|loads| loads.roll[axis] != 0.0)
+        || axis == 0 && case.stages.iter().any(|stage| stage.steady)
         || case.stages.iter().filter_map(|stage| stage.roll[axis].as_ref()).any(|roll| !roll.path().is_zero())
 }
 
-/// Refuses, in the frame of a contact that rolls, increments by parts of cells: in words, the stage and the cells of an increment.
-pub fn parts_of_cells(case: &Case, grid: &SurfaceGrid) -> Option<(usize, f64)> {
+/// Refuses increments by parts of cells in the frame of a contact that rolls.
+///
+/// # Errors
+/// At the size of the grid, which the cells follow from.
+pub fn in_whole_cells(case: &Case, grid: &SurfaceGrid) -> Result<(), CaseError> {
+    let Some((stage, cells)) = parts_of_cells(case, grid) else { return Ok(()) };
+    let message = format!(
+        "grid.size: an increment of stage {:?} rolls by {cells:.4} cells; kinematics.frame = \"contact\" moves by whole cells",
+        case.stages[stage].name
+    );
+    let help = "roll = a whole number of cells times increments, with grid.size given; or frame = \"bodies\"";
+    Err(case.refuse_size(message, help))
+}
+
+/// The first stage an increment of which goes by a part of a cell in the frame of a contact that rolls, and its cells.
+fn parts_of_cells(case: &Case, grid: &SurfaceGrid) -> Option<(usize, f64)> {
     if case.kinematics.frame != Frame::Contact || !case.rolls() {
         return None;
     }

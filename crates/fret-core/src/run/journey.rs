@@ -12,7 +12,7 @@ use super::moving::{Stepper, upper_wear_over_grid};
 use super::observer::{Iteration, Observer};
 use super::pair_compliance::PairCompliance;
 use super::plausibility::Gauge;
-use super::recording::{kept, rates, record, whole};
+use super::recording::{kept, record, tell_rates, whole};
 use super::records::Records;
 use super::refinement::{DivisionError, Refinement, Span, in_halves};
 use super::run_error::{RunError, run_error, too_thin};
@@ -242,7 +242,15 @@ impl<'a> Journey<'a> {
             observer.iterated(&Iteration { increment, stage, iteration, residual, tolerance })
         };
         let state = &self.state;
+        let rates = case.stages[stage].rates();
+        let mut held = *to;
         let (solved, parts) = match refinement {
+            _ if case.stages[stage].steady => {
+                let (end, cells);
+                (end, held, cells) =
+                    self.solver.roll_until_steady(state, (to, rates), &mut watch).map_err(failed)?;
+                (end, cells)
+            }
             None => {
                 let span = Span { state, from, to };
                 in_halves(&mut self.solver, &mut self.surfaces, span, &mut watch).map_err(failed)?
@@ -271,7 +279,7 @@ impl<'a> Journey<'a> {
         let repeats = (symmetry, case.periodic);
         let mut record =
             record(&solved, (case.springs(), friction, repeats), (increment, stage, parts), wall_s);
-        (record.creepage, record.spin) = rates(&self.state, &solved.state);
+        tell_rates(&mut record, &self.state, &solved.state);
         let kept =
             may_keep.then(|| kept(&solved, (friction, symmetry), increment, &case.output.fields)).transpose();
         let kept = kept.map_err(|error| RunError::OutOfMemory { increment, error })?;
@@ -279,7 +287,7 @@ impl<'a> Journey<'a> {
             cycle.add(&record, slid(&self.state, &solved.state));
         }
         self.place.resultants = solved.outcome.resultants;
-        self.place.held = *to;
+        self.place.held = held;
         self.state = solved.state;
         Ok((record, kept))
     }

@@ -1,5 +1,8 @@
 //! What is read from a loop of force against displacement: amplitudes, half-width at the middle force, stiffness after reversal.
 
+/// A force whose range is so much of it is constant: what is left is rounding.
+const CONSTANT: f64 = 1e-12;
+
 /// A point of a loop, at the end of an increment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoopPoint {
@@ -37,8 +40,11 @@ impl LoopReading {
             })
         };
         let (force, displacement) = (range(|point| point.force), range(|point| point.displacement));
+        // A contact that rolls under one force has no loop of it.
+        let half = 0.5 * (force.1 - force.0);
+        let is_constant = half <= CONSTANT * force.1.abs().max(force.0.abs());
         let read = Self {
-            force_amplitude: 0.5 * (force.1 - force.0),
+            force_amplitude: if is_constant { 0.0 } else { half },
             displacement_amplitude: 0.5 * (displacement.1 - displacement.0),
             opening: 0.0,
             stiffness: None,

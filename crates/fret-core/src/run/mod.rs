@@ -19,6 +19,7 @@ mod rolling;
 mod run_error;
 mod simulation;
 mod slip_increment;
+mod steady;
 mod stepping;
 mod stiffest_wave;
 mod surfaces;

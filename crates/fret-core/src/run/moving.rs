@@ -225,6 +225,23 @@ impl<'a> Stepper<'a> {
         self.moving.as_mut().map_or(Ok(()), |moving| moving.set_bodies(plan, bodies))
     }
 
+    /// Rolls along x until nothing changes any more, see [`Rolling::until_steady`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn roll_until_steady(
+        &mut self,
+        state: &ContactState,
+        wanted: (&LoadStep, [Option<f64>; 3]),
+        watch: IterationCallback<'_>,
+    ) -> Result<(Increment, LoadStep, usize), SolveError> {
+        let Self { solver, rolling, .. } = self;
+        match rolling {
+            Some(rolling) => rolling.until_steady(solver, state, wanted, watch),
+            None => solver.step(state, wanted.0, watch).map(|end| (end, *wanted.0, 1)),
+        }
+    }
+
     /// Whether an increment can be solved in parts that end at a load: a grid that goes with a contact moves by whole cells.
     pub fn may_stop_at(&self, state: &ContactState, load: &LoadStep) -> bool {
         self.rolling.as_ref().is_none_or(|rolling| rolling.may_stop_at(state, load))

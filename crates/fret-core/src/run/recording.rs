@@ -58,6 +58,7 @@ pub fn record(
         roll: state.roll,
         creepage: None,
         spin: None,
+        rolling_friction: None,
         regime: outcome.regime,
         residual: Residual { ..outcome.residual },
         work: solved.work,
@@ -65,14 +66,15 @@ pub fn record(
     }
 }
 
-/// What the upper body has moved between two states by the distance rolled: creepage along x and y [-], and spin [rad/length].
-pub fn rates(before: &ContactState, after: &ContactState) -> (Option<[f64; 2]>, Option<f64>) {
+/// What there is by distance rolled between two states: creepage along x and y [-], spin [rad/length] and dissipated energy [force].
+pub fn tell_rates(record: &mut StepRecord, before: &ContactState, after: &ContactState) {
     let rolled = (after.roll[0] - before.roll[0]).hypot(after.roll[1] - before.roll[1]);
     if rolled == 0.0 {
-        return (None, None);
+        return;
     }
-    let creepage = [0, 1].map(|axis| (after.shift[axis] - before.shift[axis]) / rolled);
-    (Some(creepage), Some((after.twist - before.twist) / rolled))
+    record.creepage = Some([0, 1].map(|axis| (after.shift[axis] - before.shift[axis]) / rolled));
+    record.spin = Some((after.twist - before.twist) / rolled);
+    record.rolling_friction = Some((after.dissipated_energy - before.dissipated_energy) / rolled);
 }
 
 /// Its fields by the names asked for, made whole; the worn depth is not yet known.

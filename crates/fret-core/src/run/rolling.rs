@@ -12,7 +12,9 @@ const ROUNDING: f64 = 1e-6;
 
 /// A contact that rolls along both surfaces. Fields are those in front of the mirrors.
 pub struct Rolling {
-    grid: SurfaceGrid,
+    pub(super) grid: SurfaceGrid,
+    /// Bound on the residuals of each increment.
+    pub(super) tolerance: f64,
     symmetry: Symmetry,
     frame: Frame,
     profile: Profile,
@@ -25,6 +27,7 @@ impl Rolling {
     pub fn of(plan: &Plan) -> Self {
         Self {
             grid: plan.grid,
+            tolerance: plan.case.tolerance,
             symmetry: plan.symmetry,
             frame: plan.case.kinematics.frame,
             profile: plan.case.profile.clone(),

@@ -26,9 +26,8 @@ impl<'a> StageSteps<'a> {
             ) {
                 (None, _)
                 | (Some(StageControl::Force(_)), Control::Force(_))
-                | (Some(StageControl::Motion(_)), Control::Motion(_))
                 | (Some(StageControl::FarEnd(_)), Control::FarEnd(_))
-                | (Some(StageControl::Rate(_)), Control::Motion(_)) => held,
+                | (Some(StageControl::Motion(_) | StageControl::Rate(_)), Control::Motion(_)) => held,
                 (Some(StageControl::Force(_)), _) => Control::Force(force),
                 (Some(StageControl::Motion(_) | StageControl::Rate(_)), _) => Control::Motion(motion),
                 (Some(StageControl::FarEnd(_)), _) => Control::FarEnd(motion + spring * force),

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use super::region::Region;
 use super::tractions::Displacements;
-use crate::fields::{Outside, TangentialField, carried, copied, stored};
-use crate::model::{ContactState, LoadStep};
+use crate::fields::{Outside, TangentialField, add_scaled, carried, copied, stored};
+use crate::model::{ContactState, Control, LoadStep};
 
 /// All that later increments depend on besides the last state.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -158,6 +158,81 @@ impl SolverMemory {
             }
         }
         self
+    }
+
+    /// All its fields that are linear in the tractions, the drifts and the gaps of the last states.
+    fn fields(&mut self) -> Vec<&mut [f64]> {
+        let mut fields: Vec<&mut [f64]> = Vec::new();
+        if let Some(last) = &mut self.last {
+            let Displacements { normal, tangential } = &mut last.displacements;
+            fields.extend([normal.as_mut_slice(), &mut tangential.x, &mut tangential.y]);
+            fields.extend([
+                last.drift.field.x.as_mut_slice(),
+                &mut last.drift.field.y,
+                &mut last.drift.motion,
+            ]);
+            fields.extend(last.gap.as_slice_mut());
+        }
+        if let Some(before) = &mut self.before {
+            fields.extend(before.tractions.pressure.as_slice_mut());
+            fields.extend(before.tractions.shear.iter_mut().filter_map(|shear| shear.as_slice_mut()));
+            fields.extend(before.gap.as_mut().and_then(|gap| gap.as_slice_mut()));
+            if let Some(drift) = &mut before.drift {
+                fields.extend([drift.field.x.as_mut_slice(), &mut drift.field.y, &mut drift.motion]);
+            }
+        }
+        fields
+    }
+
+    /// Of which regions its fields are.
+    fn regions(&self) -> [Option<Region>; 3] {
+        let before = self.before.as_ref().and_then(|before| before.drift.as_ref());
+        [
+            self.last.as_ref().map(|last| last.region),
+            self.last.as_ref().and_then(|last| last.drift.region),
+            before.and_then(|drift| drift.region),
+        ]
+    }
+
+    /// The mean of memories by weights whose sum is 1, with the loads of the last of them; `None` where they are not of the same regions.
+    pub fn mean(memories: &[(&Self, f64)]) -> Option<Self> {
+        let (last, _) = memories.last()?;
+        let mut mean = (*last).clone();
+        mean.fields().into_iter().for_each(|field| field.fill(0.0));
+        for (memory, weight) in memories {
+            let mut memory = (*memory).clone();
+            if memory.regions() != mean.regions() {
+                return None;
+            }
+            let (to, from) = (mean.fields(), memory.fields());
+            if to.len() != from.len() {
+                return None;
+            }
+            to.into_iter().zip(from).for_each(|(to, from)| add_scaled(to, *weight, from));
+        }
+        Some(mean)
+    }
+
+    /// Counts rolls, shifts and rotations from elsewhere: all loads that it knows of by so much more.
+    pub fn count_motions_from(&mut self, more: ([f64; 2], [f64; 2], f64)) {
+        let (roll, shift, twist) = more;
+        let move_on = |control: &mut Control, by: f64| {
+            if let Control::Motion(motion) = control {
+                *motion += by;
+            }
+        };
+        let loads = [
+            self.last_load.as_mut(),
+            self.last.as_mut().map(|last| &mut last.load),
+            self.before.as_mut().map(|before| &mut before.load),
+        ];
+        for load in loads.into_iter().flatten() {
+            for axis in 0..2 {
+                load.roll[axis] += roll[axis];
+                move_on(&mut load.tangential[axis], shift[axis]);
+            }
+            move_on(&mut load.twist, twist);
+        }
     }
 
     /// That of a solver whose first state is known, with the load that led to it, and nothing else.

@@ -268,6 +268,11 @@ impl<'a> ContactSolver<'a> {
         self.memory = std::mem::take(&mut self.memory).carried(cells);
     }
 
+    /// Another bound on the residuals from the next increment on.
+    pub fn set_tolerance(&mut self, tolerance: f64) {
+        self.settings.tolerance = tolerance;
+    }
+
     /// In the next increments the contact travels over both surfaces by so many cells along each axis: tractions are looked for first where it
     /// will be.
     pub fn set_rolled(&mut self, cells: [f64; 2]) {
