@@ -58,15 +58,15 @@ pub(super) fn rolling(
 
 /// Refuses controls that have no place beside a roll.
 fn beside(judge: &mut Judge, loading: Loading<'_>, kinematics: Kinematics) {
-    let (files, _) = loading;
-    for given in files.iter().flat_map(|file| &file.value.controls.0) {
-        if given.way.name == "twist_moment" && given.values != [Some(0.0)] {
+    let (files, stages) = loading;
+    for (index, file) in files.iter().enumerate() {
+        // 0, too: the moment would be one about the middle of the grid.
+        let by_key = file.value.controls.of("twist_moment").map(Given::span);
+        let twist = stages.and_then(|stages| stages.get(index)).and_then(|stage| stage.twist.as_ref());
+        let by_table = file.value.table.as_ref().filter(|_| matches!(twist, Some(StageControl::Force(_))));
+        if let Some(span) = by_key.or(by_table.map(At::span)) {
             let help = "spin, or no twist_moment: the upper body then does not turn";
-            judge.refuse::<()>(
-                given.span(),
-                "twist_moment of a contact that rolls: its spin is prescribed",
-                help,
-            );
+            judge.refuse::<()>(span, "twist_moment of a contact that rolls: its spin is prescribed", help);
         }
     }
     if kinematics.frame == Frame::Bodies {
@@ -128,14 +128,18 @@ fn steady(judge: &mut Judge, (files, _): Loading<'_>, kinematics: Kinematics) {
 fn in_the_frame_of_the_contact(
     judge: &mut Judge,
     file: &CaseFile,
-    (files, _): Loading<'_>,
+    (files, stages): Loading<'_>,
     (profile, laws): (Option<&Profile>, Option<&[&CoulombFriction]>),
 ) {
+    // By a key, or by the columns of a table.
+    let checked = |index: usize| stages.and_then(|stages| stages.get(index));
     let marched = || {
-        let rolls = |stage: &&At<StageFile>| stage.value.controls.of("roll").is_some();
-        files.iter().filter(rolls).filter(|stage| !stage.value.controls.are_steady())
+        let rolls = move |(index, stage): &(usize, &At<StageFile>)| {
+            stage.value.controls.of("roll").is_some() || checked(*index).is_some_and(Stage::rolls)
+        };
+        files.iter().enumerate().filter(rolls).filter(|(_, stage)| !stage.value.controls.are_steady())
     };
-    for stage in marched() {
+    for (_, stage) in marched() {
         if matches!(stage.value.increments, IncrementsFile::Auto(_)) {
             judge.refuse::<()>(
                 stage.value.controls.of("roll").map_or_else(|| stage.span(), Given::span),
@@ -167,10 +171,14 @@ fn in_the_frame_of_the_contact(
     if profile.is_some_and(of_places) {
         refuse(frame.or_else(roll), "topography");
     }
-    for stage in marched() {
+    for (index, stage) in marched() {
         let stress =
             stage.value.controls.0.iter().find(|given| (BULK_STRESS..ROLL).contains(&given.row.freedom));
-        refuse(stress.map(Given::span), "a bulk stress that changes while the contact rolls");
+        let by_table = stage.value.table.as_ref().filter(|_| checked(index).is_some_and(Stage::stretches));
+        refuse(
+            stress.map(Given::span).or(by_table.map(At::span)),
+            "a bulk stress that changes while the contact rolls",
+        );
         let cyclic = stage.value.cycles.is_some() || stage.value.until_steady.is_some();
         if cyclic {
             refuse(stage.value.controls.of("roll").map(Given::span), "cycles of roll");

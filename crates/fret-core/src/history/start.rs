@@ -101,8 +101,18 @@ impl Start {
         if own.is_object() && own["kinematics"].is_null() {
             own["kinematics"] = json!({ "displacement": "small" }); // of a version that knew no other
         }
+        // A contact that has not rolled lies in the same place in both frames.
+        let frame = |setting: &mut Value| {
+            let given = setting.as_object_mut().and_then(|setting| setting.remove(FRAME));
+            given.and_then(|frame| Some(frame.as_str()?.to_owned())).unwrap_or_else(|| "bodies".to_owned())
+        };
+        let mut of_case = setting(plan);
+        let (case, state) = (frame(&mut of_case), frame(&mut own));
         let mut found = Vec::new();
-        differences("", &setting(plan), &own, &mut found);
+        differences("", &of_case, &own, &mut found);
+        if self.solved.state.roll != [0.0; 2] && case != state {
+            found.push(Difference { key: "kinematics.frame".to_owned(), case, state });
+        }
         found
     }
 
@@ -111,6 +121,9 @@ impl Start {
         self.memory.as_ref().filter(|(_, way)| *way == way_of_solving(plan)).map(|(memory, _)| memory)
     }
 }
+
+/// Key of the frame in which a contact rolls.
+const FRAME: &str = "frame";
 
 /// What a state belongs to, with the keys that a case has for it.
 pub(crate) fn setting(plan: &Value) -> Value {
@@ -125,6 +138,7 @@ pub(crate) fn setting(plan: &Value) -> Value {
         "lower": case["bodies"]["lower"],
         "profile": case["profile"],
         "kinematics": { "displacement": displacement(case) },
+        FRAME: case["kinematics"]["frame"],
     });
     // approach and shift of a line contact are relative to it
     if !plan["datum"].is_null() {

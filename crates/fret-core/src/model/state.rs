@@ -124,7 +124,7 @@ impl ContactState {
     pub fn carried(&self, cells: [f64; 2]) -> Self {
         let moved = |field: &Array2<f64>| carried(field, cells, Outside::Zero);
         let numbers = self.zone.mapv(|zone| f64::from(zone as u8));
-        let zone = moved(&numbers).mapv(|number| match number as u8 {
+        let zone = moved(&numbers).mapv(|number| match number.round() as u8 {
             1 => Zone::Stick,
             2 => Zone::Slip,
             _ => Zone::Open,

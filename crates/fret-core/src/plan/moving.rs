@@ -77,8 +77,16 @@ pub fn with_room_to_move(case: &Case, size: [f64; 2]) -> [f64; 2] {
     let mut most = [0.0_f64; 2];
     if case.rolls() && case.kinematics.frame == Frame::Bodies {
         for (axis, most) in most.iter_mut().enumerate() {
-            let rolls = case.stages.iter().filter_map(|stage| stage.roll[axis].as_ref());
-            *most = rolls.map(|roll| roll.path().last().abs()).fold(0.0, f64::max);
+            let mut held = case.start.unwrap_or(LoadStep::FREE);
+            for stage in case.stages.iter().filter(|stage| stage.rolls()) {
+                let start = held;
+                // the way of a cycle is that of all, but for an envelope, which is linear
+                let [first, all] = [stage.increments, stage.increments_in_all()];
+                for k in (1..=first).chain((all - first + 1).max(first + 1)..=all) {
+                    held.roll = stage.load(&start, k).roll;
+                    *most = most.max(held.roll[axis].abs());
+                }
+            }
         }
     } else if !case.kinematics.is_finite() {
         return size;

@@ -9,6 +9,8 @@ use crate::solver::{ContactSolver, Increment, IterationCallback, SolveError};
 
 /// So much of a cell is rounding: numbers of cells are sums of lengths.
 const ROUNDING: f64 = 1e-6;
+/// And of a way between two such sums, which a plan has found to be whole.
+const WHOLE: f64 = 1e-4;
 
 /// A contact that rolls along both surfaces. Fields are those in front of the mirrors.
 pub struct Rolling {
@@ -49,10 +51,21 @@ impl Rolling {
         [cells(0), if self.grid.is_line() { 0.0 } else { cells(1) }]
     }
 
+    /// Cells from a state to a load; with the contact the grid moves by whole ones, whatever rounding has made of sums of lengths.
+    fn way(&self, state: &ContactState, load: &LoadStep) -> [f64; 2] {
+        let [from, to] = [state.roll, load.roll].map(|roll| self.cells(roll));
+        let by = [0, 1].map(|axis| to[axis] - from[axis]);
+        if self.frame == Frame::Contact { by.map(f64::round) } else { by }
+    }
+
     /// Whether the grid can be where a load says: with the contact it moves by whole cells.
     pub fn may_stop_at(&self, state: &ContactState, load: &LoadStep) -> bool {
         let [from, to] = [state.roll, load.roll].map(|roll| self.cells(roll));
-        self.frame == Frame::Bodies || (0..2).all(|axis| (to[axis] - from[axis]).fract() == 0.0)
+        let is_whole = |axis: usize| {
+            let by = to[axis] - from[axis];
+            (by - by.round()).abs() < WHOLE
+        };
+        self.frame == Frame::Bodies || (0..2).all(is_whole)
     }
 
     /// Solves one increment of a contact that rolls to where a load says: in the frame of the bodies with the gap there, in that of the contact
@@ -69,7 +82,7 @@ impl Rolling {
         watch: IterationCallback<'_>,
     ) -> Result<Increment, SolveError> {
         let [from, to] = [state.roll, load.roll].map(|roll| self.cells(roll));
-        let by = [0, 1].map(|axis| to[axis] - from[axis]);
+        let by = self.way(state, load);
         let half_way = |axis: usize| match self.frame {
             Frame::Bodies => 0.5 * (from[axis] + to[axis]),
             Frame::Contact => -0.5 * by[axis],
