@@ -64,11 +64,11 @@ fn the_energy_of_a_loop_falls_with_friction_as_mindlin_and_deresiewicz_say() {
         (of(1.0 + 1e-5).ln() - of(1.0 - 1e-5).ln()) / ((1.0_f64 + 1e-5).ln() - (1.0_f64 - 1e-5).ln());
     assert!((closed + 2.311).abs() < 1e-4, "{closed}");
     // On one grid the stick zone grows cell by cell, and the derivative scatters with it (-2.69, -2.20, -2.25 on 32, 64, 128 cells): the mean over
-    // coefficients that move its edge by a cell, against the same mean of the closed form.
+    // coefficients that move its edge by a few cells, against the same mean of the closed form. A scatter of a tenth in seventeen values.
     let slope = |mu: f64| (of(mu * (1.0 + 1e-5)).ln() - of(mu * (1.0 - 1e-5)).ln()) / 2e-5;
     let (mut mean, mut exact) = (0.0, 0.0);
-    for step in -4..=4 {
-        let factor = 1.0 + 0.0075 * f64::from(step);
+    for step in -8..=8 {
+        let factor = 1.0 + 0.01 * f64::from(step);
         let text = format!(
             "[grid]\ncells = [64, 64]\nsize = [2.4, 2.4]\n[upper]\nsubstrate = {{ young = 2.0, poisson = 0.0 }}\n[lower]\n\
              substrate = {{ young = 2.0, poisson = 0.0 }}\n[profile.sphere]\nradius = 20.0\n[friction]\ncoefficient = {:e}\n\
@@ -80,11 +80,11 @@ fn the_energy_of_a_loop_falls_with_friction_as_mindlin_and_deresiewicz_say() {
         );
         let found =
             found(&planned(&text), &["cycles[0].dissipated_energy"], &["friction.coefficient"]).unwrap();
-        mean += found.gradients[0].by[0] * 0.1 * factor / found.gradients[0].value / 9.0;
-        exact += slope(factor) / 9.0;
+        mean += found.gradients[0].by[0] * 0.1 * factor / found.gradients[0].value / 17.0;
+        exact += slope(factor) / 17.0;
     }
     println!("energy by friction: {mean} {exact}");
-    assert!((mean / exact - 1.0).abs() < 0.02, "{mean} {exact}");
+    assert!((mean / exact - 1.0).abs() < 0.03, "{mean} {exact}");
 }
 
 /// What is not differentiated is refused, by the key that it is about.

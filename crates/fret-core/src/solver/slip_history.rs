@@ -6,6 +6,7 @@ use ndarray::Array2;
 
 use super::laws::slip_path::{SlipPath, path_that_goes_on, turn_that_begins};
 use super::memory::{Before, Drift, SolverMemory};
+use super::pace::Pace;
 use super::region::Region;
 use crate::fields::{Scalar, TangentialField, in_portions, length_of};
 use crate::model::{ContactState, Zone};
@@ -28,15 +29,6 @@ const EDGE: f64 = 0.7;
 const NUMBERS: usize = 50;
 /// The direction of a slip increment, and of shear, is known where it is at least this fraction of the largest; below, the less the smaller.
 const KNOWN: f64 = 0.01;
-
-/// Length of an increment over that of the last one, which it goes on from.
-#[derive(Debug, Clone, Copy)]
-pub struct Pace<R = f64> {
-    /// In the loads.
-    pub loads: R,
-    /// In the normal load, which moves the edge of contact; `None` where that turns.
-    pub edge: Option<R>,
-}
 
 /// What is known of the last two increments in the cells of a region, in numbers of any kind.
 pub struct Recent<'a, R> {
