@@ -23,6 +23,7 @@ mod iterate;
 mod laws;
 mod linear;
 mod memory;
+mod moving_edge;
 mod nested_start;
 mod newton;
 mod normal;
