@@ -16,7 +16,6 @@ fn hertz_has_its_powers() {
     for (gradient, expected) in found.gradients.iter().zip(expected) {
         for ((by, parameter), expected) in gradient.by.iter().zip(&found.parameters).zip(expected) {
             let power = by * parameter.value() / gradient.value;
-            println!("{} by {}: {power} {expected}", gradient.of, parameter.path());
             assert!((power - expected).abs() < 1e-3, "{} by {}: {power}", gradient.of, parameter.path());
         }
     }
@@ -43,7 +42,6 @@ fn coated_spheres_have_the_powers_of_the_integral_equation() {
             for (gradient, key) in found.gradients.iter().zip(["pressure", "approach"]) {
                 let power = gradient.by[index] * parameter.value() / gradient.value;
                 let expected = row[["by_young", "by_thickness"][index]][key].as_f64().unwrap();
-                println!("{ratio} {key} by {}: {power:.5} {expected}", parameter.path());
                 // What the grid leaves of the functions themselves.
                 assert!((power - expected).abs() < 1e-3, "{ratio}: {key} by {}: {power}", parameter.path());
             }
@@ -83,7 +81,6 @@ fn the_energy_of_a_loop_falls_with_friction_as_mindlin_and_deresiewicz_say() {
         mean += found.gradients[0].by[0] * 0.1 * factor / found.gradients[0].value / 17.0;
         exact += slope(factor) / 17.0;
     }
-    println!("energy by friction: {mean} {exact}");
     assert!((mean / exact - 1.0).abs() < 0.03, "{mean} {exact}");
 }
 
