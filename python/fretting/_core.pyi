@@ -29,6 +29,7 @@ __all__ = [
     "fatigue",
     "flat_punch",
     "frequency_response",
+    "gradient",
     "hertz",
     "hertz_ellipse",
     "hertz_line",

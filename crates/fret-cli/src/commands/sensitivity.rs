@@ -48,7 +48,7 @@ fn refused(error: SensitivityError) -> Failure {
             "fret sensitivity CASE without --by lists all numbers of the case by which there are derivatives"
                 .to_owned(),
         ),
-        other => Failure::Call(other.to_string(), String::new()),
+        other => Failure::Call(other.to_string(), "fret sensitivity --help tells what is covered".to_owned()),
     }
 }
 

@@ -1,6 +1,5 @@
 //! How the response of a pair changes with a constant of a layer.
 
-use super::error::SensitivityError;
 use super::parameter::{BodyNumber, LayerNumber};
 use crate::compliance::SurfaceResponse;
 use crate::kernel::{Components, LayerChanges, ResponseChange, coefficients_by, symbols_by};
@@ -8,15 +7,7 @@ use crate::model::{Body, HalfSpace};
 use crate::plan::{Coupling, Plan};
 
 /// Derivative of the response on the cells of a plan's grid by a constant of one of its bodies.
-pub(super) fn change_of_response(
-    plan: &Plan,
-    number: BodyNumber,
-    path: &str,
-) -> Result<SurfaceResponse, SensitivityError> {
-    if plan.grid.is_line() {
-        let reason = "derivatives by constants of layers are not taken of line contacts".to_owned();
-        return Err(SensitivityError::Parameter { path: path.to_owned(), reason });
-    }
+pub(super) fn change_of_response(plan: &Plan, number: BodyNumber) -> SurfaceResponse {
     let wanted = match plan.coupling {
         Coupling::Frictionless => Components::NORMAL,
         Coupling::Uncoupled => Components { normal: true, tangential: true, coupling: false },
@@ -30,12 +21,12 @@ pub(super) fn change_of_response(
     };
     let changes: [&[LayerChanges]; 2] = if number.of_upper { [&[], &changes] } else { [&changes, &[]] };
     let (cells, spacing) = (plan.case.cells, plan.grid.spacing());
-    Ok(if plan.case.periodic {
+    if plan.case.periodic {
         SurfaceResponse::Periodic(symbols_by(bodies, changes, cells, spacing, wanted))
     } else {
         let change = ResponseChange::new(bodies, changes);
         SurfaceResponse::FreeSpace(coefficients_by(&change, cells, spacing, wanted))
-    })
+    }
 }
 
 /// Derivatives of the constants of all layers of a body by one of them, from the surface down, those of the substrate last.

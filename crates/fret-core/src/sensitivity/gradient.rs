@@ -169,11 +169,9 @@ fn tangents(
     let mut courses = Vec::with_capacity(parameters.len());
     for parameter in parameters {
         let gap = change_of_gap(parameter, &scene);
-        let change = parameter.of_body().map(|number| change_of_response(plan, number, parameter.path()));
-        let response = match change.transpose()? {
-            Some(change) => Some(scene.compliance(&change).map_err(operators_failed)?),
-            None => None,
-        };
+        let change = parameter.of_body().map(|number| change_of_response(plan, number));
+        let response =
+            change.map(|change| scene.compliance(&change)).transpose().map_err(operators_failed)?;
         let track = Track::untouched(&scene, &gap);
         courses.push(Course { parameter, track, held: Load::FREE, start: Load::FREE, gap, response });
     }
@@ -282,6 +280,7 @@ fn advance(
     let region = scene.region.len();
     let own = operators.compliance.self_influence();
     let mut near = None;
+    let mut linear = Linearised::new(operators, (&solved.contact, &cells), kinds, region);
     for (course, known) in courses.iter_mut().zip(knowns) {
         let Some((known, drive)) = known else { continue };
         let prescribed = asked_of(&course.track, &drive);
@@ -297,7 +296,7 @@ fn advance(
                 given[1 + axis][cell] = known.bounds[number].change * cells[number].along[axis];
             }
         }
-        let mut moved = displacements(&mut operators.compliance, operators.frictional, &given);
+        let mut moved = linear.displacements(&given);
         for part in 0..3 {
             add_scaled(&mut moved[part], 1.0, &drive.by_response[part]);
         }
@@ -312,7 +311,6 @@ fn advance(
                 asked[2][number] -= y;
             }
         }
-        let mut linear = Linearised::new(operators, (&solved.contact, &cells), kinds, region);
         let packed = given.each_ref().map(|field| solved.contact.packed(field));
         let follows = linear.resultants(&packed);
         let amounts: [f64; MOTIONS] = std::array::from_fn(|motion| match prescribed[motion] {
@@ -331,7 +329,7 @@ fn advance(
         for part in 0..3 {
             add_scaled(&mut tractions[part], 1.0, &given[part]);
         }
-        let mut changes = displacements(&mut operators.compliance, operators.frictional, &tractions);
+        let mut changes = linear.displacements(&tractions);
         for part in 0..3 {
             add_scaled(&mut changes[part], 1.0, &drive.by_response[part]);
         }

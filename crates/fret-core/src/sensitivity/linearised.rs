@@ -91,8 +91,15 @@ impl<'a> Linearised<'a> {
             schur: [[0.0; MOTIONS]; MOTIONS],
             region,
         };
-        problem.border();
+        if !cells.is_empty() {
+            problem.border();
+        }
         problem
+    }
+
+    /// Displacements of tractions on all cells of the region [length].
+    pub fn displacements(&mut self, tractions: &Fields) -> Fields {
+        displacements(&mut self.operators.compliance, self.operators.frictional, tractions)
     }
 
     /// How many unknowns there are.
@@ -289,7 +296,7 @@ impl LinearProblem for Linearised<'_> {
     fn apply(&mut self, unknowns: &[f64], equations: &mut [f64]) {
         let n = self.cells.len();
         let (tractions, motions) = self.parted(unknowns);
-        let moved = displacements(&mut self.operators.compliance, self.operators.frictional, &tractions);
+        let moved = self.displacements(&tractions);
         let mut moved = moved.map(|field| self.contact.packed(&field));
         for (place, cell) in self.cells.iter().enumerate() {
             let by_motions = cell.moved(&motions);

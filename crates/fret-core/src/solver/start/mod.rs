@@ -4,5 +4,3 @@
 mod active_subdomain;
 mod extrapolation;
 mod self_similar;
-
-pub use extrapolation::pace_of;

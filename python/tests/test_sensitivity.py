@@ -1,0 +1,92 @@
+"""Exact sensitivities from Python and from the command, against closed forms and differences of runs."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import fretting
+
+CASE: dict[str, Any] = {
+    "grid": {"cells": [32, 32], "size": [320e-6, 320e-6]},
+    "upper": {"rigid": True},
+    "lower": {
+        "coatings": [{"thickness": 20e-6, "young": 400e9, "poisson": 0.2}],
+        "substrate": {"young": 210e9, "poisson": 0.3},
+    },
+    "profile": {"sphere": {"radius": 10e-3}},
+    "friction": {"coefficient": 0.3},
+    "solver": {"tolerance": 1e-10},
+    "load": [
+        {"name": "press", "normal_force": 12.0, "increments": 4},
+        {"name": "rub", "tangential_force": [1.5, 0.0], "cycles": 1, "increments": 8},
+    ],
+}
+MODULI = ["lower.coatings[0].young", "lower.substrate.young"]
+FORCES = ["load[0].normal_force", "load[1].tangential_force[0]"]
+
+
+def with_friction(coefficient: float) -> dict[str, Any]:
+    return {**CASE, "friction": {"coefficient": coefficient}}
+
+
+def test_derivatives_are_those_of_the_history() -> None:
+    of = ["max_pressure", "cycles[0].dissipated_energy", "increments[5].shift_x"]
+    found = fretting.gradient(CASE, of=of, by=["friction.coefficient", *MODULI, *FORCES])
+    history = fretting.run(CASE)
+    assert list(found) == of
+    assert found["max_pressure"]["value"] == history.increments["max_pressure"][-1]
+    assert found["increments[5].shift_x"]["value"] == history.increments["shift_x"][5]
+    energy = found["cycles[0].dissipated_energy"]
+    assert energy["value"] == pytest.approx(history.cycles["dissipated_energy"][0], rel=1e-12)
+    # A difference over a step so small that hardly a cell changes its state; the runs leave 1e-10 over 1e-5.
+    step = 0.3e-5
+    up, down = (fretting.run(with_friction(0.3 + by)).cycles["dissipated_energy"][0] for by in (step, -step))
+    assert energy["friction.coefficient"] == pytest.approx((up - down) / (2 * step), rel=1e-4)
+    # Moduli and forces are one dimension: a pressure grows with both together, a length does not change.
+    values = dict(zip([*MODULI, *FORCES], [400e9, 210e9, 12.0, 1.5], strict=True))
+    for name, power in {"max_pressure": 1, "cycles[0].dissipated_energy": 1, "increments[5].shift_x": 0}.items():
+        total = sum(found[name][path] * value for path, value in values.items())
+        assert total == pytest.approx(power * found[name]["value"], abs=1e-6 * abs(found[name]["value"])), name
+
+
+def test_without_names_all_numbers_are_taken() -> None:
+    found = fretting.gradient(CASE, of="max_pressure")["max_pressure"]
+    paths = {"friction.coefficient", *MODULI, *FORCES, "lower.coatings[0].thickness", "profile.sphere.radius"}
+    assert paths | {"value", "lower.coatings[0].poisson", "lower.substrate.poisson"} == set(found)
+
+
+@pytest.mark.parametrize(
+    ("of", "by", "told"),
+    [
+        ("pressure", "friction.coefficient", "max_pressure"),
+        ("contact_area", "friction.coefficient", "two runs"),
+        ("max_pressure", "friction.strength", "paths are those of the case"),
+        ("increments[40].shift_x", "friction.coefficient", "12 increments"),
+    ],
+)
+def test_what_there_is_not_is_refused(of: str, by: str, told: str) -> None:
+    with pytest.raises(ValueError, match=told):
+        fretting.gradient(CASE, of=of, by=by)
+
+
+def test_wear_is_refused_by_its_key() -> None:
+    with pytest.raises(ValueError, match=r"\[wear\]"):
+        fretting.gradient({**CASE, "wear": {"coefficient": 1e-13}}, of="max_pressure")
+
+
+def test_the_command_gives_the_same(tmp_path: Path) -> None:
+    text = Path(__file__).parents[2].joinpath("examples", "hertz.toml").read_text(encoding="utf-8")
+    path = tmp_path / "hertz.toml"
+    path.write_text(text, encoding="utf-8")
+    call = [sys.executable, "-m", "fretting", "--json", "sensitivity", str(path), "--of", "max_pressure"]
+    told = json.loads(subprocess.run(call, capture_output=True, text=True, check=True, timeout=100).stdout)
+    of = told["of"]["max_pressure"]
+    found = fretting.gradient(path, of="max_pressure")["max_pressure"]
+    assert {"value": of["value"], **of["derivatives"]} == found
+    # Hertz: the powers 1/3 of the force and -2/3 of the radius, within the error of the grid.
+    assert of["logarithmic_derivatives"]["load[0].normal_force"] == pytest.approx(1 / 3, abs=2e-3)
+    assert of["logarithmic_derivatives"]["profile.sphere.radius"] == pytest.approx(-2 / 3, abs=2e-3)
