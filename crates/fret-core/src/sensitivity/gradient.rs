@@ -13,12 +13,13 @@ use super::linearised::{Linearised, displacements, zeros};
 use super::loads::Load;
 use super::objective::{Objective, change_of, value_of};
 use super::parameter::Parameter;
-use super::refusals::check;
+use super::refusals::{check, check_history, check_request};
 use super::scene::{Scene, Snapshot, Solved, field};
 use super::track::{Drive, Known, Track};
 use crate::compliance::{SpectralCompliance, SurfaceCompliance};
 use crate::fields::add_scaled;
 use crate::history::{CycleRecord, KeptFields, StepRecord};
+use crate::machine::memory;
 use crate::model::{CoulombFriction, MirroredState};
 use crate::plan::Plan;
 use crate::run::{Iteration, Observer, PairCompliance, RunError, Simulation};
@@ -27,6 +28,8 @@ use fret_fft::ConvolutionError;
 /// Relative residual of the linear equations that is aimed at, and one that is good enough.
 const TARGET: f64 = 1e-12;
 const ENOUGH: f64 = 1e-9;
+/// Bytes a cell of a state that is kept: five fields and the zone.
+const STATE: usize = 41;
 
 /// What is asked.
 #[derive(Debug, Clone, Default)]
@@ -68,19 +71,23 @@ pub fn gradient(
     request: &Request,
     observer: &mut dyn Observer,
 ) -> Result<Sensitivities, SensitivityError> {
+    check(plan)?;
     let parameters = if request.by.is_empty() {
         Parameter::all_of(&plan.case)
     } else {
         request.by.iter().map(|path| Parameter::new(path, &plan.case)).collect::<Result<_, _>>()?
     };
     let objectives = request.of.iter().map(|name| Objective::new(name)).collect::<Result<Vec<_>, _>>()?;
-    check(plan)?;
+    check_request(plan, &parameters, &objectives)?;
+    let bytes = plan.grid.len().saturating_mul(STATE).saturating_mul(plan.case.increments());
+    memory::check(bytes).map_err(|error| RunError::OutOfMemory { increment: 0, error })?;
     let mut run = Snapshots { steps: Vec::new(), cycles: Vec::new(), observer };
     Simulation::new(plan).run(&mut run)?;
     let Snapshots { steps, cycles, observer } = run;
     if let Some(step) = steps.iter().find(|step| step.record.parts > 1) {
         return Err(SensitivityError::Parts { increment: step.record.increment, parts: step.record.parts });
     }
+    check_history(plan, steps.iter().map(|step| step.record.contact_cells))?;
     let mut gradients: Vec<Gradient> = request
         .of
         .iter()
@@ -194,8 +201,18 @@ fn tangents(
         let mut knowns = Vec::with_capacity(courses.len());
         for course in &mut courses {
             let drive = drive(course, (&scene, &solved), before, stage);
-            let pauses = course.track.pauses(&drive.load);
-            knowns.push((!pauses).then(|| (course.track.known(&scene, &solved, &drive), drive)));
+            let stands = course.track.stands(&drive.load);
+            let friction_changes = begins && given.friction.is_some();
+            if stands && (friction_changes || !course.track.pauses(&drive.load)) {
+                return Err(SensitivityError::NotCovered {
+                    key: format!(
+                        "increment {number}, in which no load changes but friction or the number itself, {}",
+                        course.parameter.path()
+                    ),
+                    advice: "let a load change in each increment, or take the number of the stage before",
+                });
+            }
+            knowns.push((!stands).then(|| (course.track.known(&scene, &solved, &drive), drive)));
         }
         if let Some(near) = advance((&scene, &solved), &mut operators, &mut courses, knowns)?
             && near.cells > most.map_or(0, |most| most.cells)

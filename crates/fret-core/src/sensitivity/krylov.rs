@@ -20,8 +20,11 @@ pub(super) trait LinearProblem {
 pub(super) fn solve(problem: &mut impl LinearProblem, right: &[f64], target: f64) -> (Vec<f64>, f64) {
     let size = norm(right);
     let mut solution = vec![0.0; right.len()];
-    if !(size > 0.0) {
+    if right.iter().all(|value| *value == 0.0) {
         return (solution, 0.0);
+    }
+    if !(size > 0.0 && size.is_finite()) {
+        return (solution, f64::INFINITY);
     }
     let mut left = right.to_vec();
     let mut reached = 1.0;

@@ -6,7 +6,7 @@ use crate::fields::{Dual, Reals, Scalar};
 use crate::history::{CycleRecord, STEP_COLUMNS, StepRecord, Value};
 
 /// Columns of an increment that have derivatives.
-pub const COLUMNS: [&str; 25] = [
+pub const COLUMNS: [&str; 22] = [
     "normal_force",
     "approach",
     "actuator_approach",
@@ -29,9 +29,6 @@ pub const COLUMNS: [&str; 25] = [
     "external_work",
     "unresolved_energy",
     "friction_coefficient",
-    "wear_work",
-    "worn_volume",
-    "max_worn_depth",
 ];
 
 /// Columns that have none, and why.
@@ -57,7 +54,9 @@ impl Objective {
                 return Err(refused(OF_AREAS.to_owned()));
             }
             let known = COLUMNS.into_iter().find(|known| *known == column);
-            known.ok_or_else(|| refused(format!("no such result; there are: {}", COLUMNS.join(", "))))
+            known.ok_or_else(|| {
+                refused(format!("no derivative is taken of it; of these one is: {}", COLUMNS.join(", ")))
+            })
         };
         let Some((list, rest)) = name.split_once('[') else {
             return Ok(Self::Increment { increment: None, column: column(name)? });

@@ -148,6 +148,11 @@ impl Parameter {
         self.value
     }
 
+    /// Whether it is what a stage prescribes.
+    pub(super) fn is_a_load(&self) -> bool {
+        matches!(self.what, What::Control { .. })
+    }
+
     /// Whether it is what a stage prescribes of a degree of freedom.
     pub(super) fn is_control(&self, stage: usize, freedom: usize) -> bool {
         self.what == What::Control { stage, freedom }

@@ -1,9 +1,14 @@
 //! Histories of which no derivatives are taken, each refused by the key that makes it one: never a wrong derivative in silence.
 
+use ndarray::s;
+
 use super::error::SensitivityError;
+use super::objective::Objective;
+use super::parameter::Parameter;
 use crate::case::{Stage, StageControl};
 use crate::kernel::uniform_response;
-use crate::plan::{Plan, Simplification};
+use crate::model::Integration;
+use crate::plan::{Coupling, Plan, Simplification};
 
 /// Whether derivatives are taken of the history of a plan.
 pub(super) fn check(plan: &Plan) -> Result<(), SensitivityError> {
@@ -36,4 +41,86 @@ pub(super) fn check(plan: &Plan) -> Result<(), SensitivityError> {
         Some((_, key, advice)) => Err(SensitivityError::NotCovered { key: key.to_owned(), advice }),
         None => Ok(()),
     }
+}
+
+/// Whether the numbers and the results that are asked for have derivatives with the simplifications of a plan.
+pub(super) fn check_request(
+    plan: &Plan,
+    parameters: &[Parameter],
+    objectives: &[Objective],
+) -> Result<(), SensitivityError> {
+    let refused = |parameter: &Parameter, reason: &str| {
+        Err(SensitivityError::Parameter { path: parameter.path().to_owned(), reason: reason.to_owned() })
+    };
+    for parameter in parameters {
+        if parameter.is_a_load() && parameter.value() == 0.0 && (plan.symmetry.any() || plan.along.is_some())
+        {
+            return refused(
+                parameter,
+                "it is 0, and the plan takes the contact for symmetric since it is: give it a small value",
+            );
+        }
+        if parameter.of_body().is_some() && plan.coupling == Coupling::Uncoupled {
+            if parameter.path().ends_with("poisson") && parameter.value() == 0.5 {
+                return refused(parameter, "at 0.5 the results turn: take it at 0.499");
+            }
+            if !is_point_symmetric(plan) {
+                return refused(
+                    parameter,
+                    "pressure and shear of these bodies do not act on each other, but with another value they would, and the scene is not \
+                     symmetric: give one of the bodies a slightly different constant",
+                );
+            }
+        }
+    }
+    let of_friction = |objective: &&Objective| objective.column() == "friction_coefficient";
+    let mapped = plan.case.friction.is_map()
+        || plan.case.stages.iter().filter_map(|stage| stage.friction.as_ref()).any(|law| law.is_map());
+    if mapped && objectives.iter().any(|objective| of_friction(&objective)) {
+        return Err(SensitivityError::Objective {
+            name: "friction_coefficient".to_owned(),
+            reason: "the mean over a map of friction, of which no derivative is taken".to_owned(),
+        });
+    }
+    Ok(())
+}
+
+/// Whether the gap, without a tilt or a map, is the same after half a turn: what pressure and shear then do to each other cancels to first order.
+fn is_point_symmetric(plan: &Plan) -> bool {
+    let case = &plan.case;
+    let gap = case.profile.gap(&plan.grid);
+    let largest = gap.iter().copied().filter(|gap| gap.is_finite()).fold(0.0, f64::max);
+    let turned = gap.slice(s![..;-1, ..;-1]);
+    let is_even =
+        gap.iter().zip(turned).all(|(one, other)| one == other || (one - other).abs() <= 1e-12 * largest);
+    is_even && !case.friction.is_map() && !case.stages.iter().any(Stage::tilts)
+}
+
+/// Whether the history of a plan, of which the cells in contact are given increment by increment, has derivatives.
+pub(super) fn check_history(
+    plan: &Plan,
+    contact: impl Iterator<Item = usize>,
+) -> Result<(), SensitivityError> {
+    let mut is_apart = false;
+    let mut touches_again = false;
+    for cells in contact {
+        touches_again |= is_apart && cells > 0;
+        is_apart |= cells == 0;
+    }
+    let case = &plan.case;
+    let of_second_order =
+        case.integration == Integration::SecondOrder && plan.coupling != Coupling::Frictionless;
+    if touches_again && of_second_order {
+        return Err(SensitivityError::NotCovered {
+            key: "bodies that are apart before they touch".to_owned(),
+            advice: "integration = \"end_point\" in [solver], or a first stage that presses them",
+        });
+    }
+    if is_apart && case.stages.iter().any(Stage::tilts) {
+        return Err(SensitivityError::NotCovered {
+            key: "bodies that are apart, and tilt".to_owned(),
+            advice: "keep them pressed",
+        });
+    }
+    Ok(())
 }

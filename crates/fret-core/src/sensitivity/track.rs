@@ -119,9 +119,14 @@ impl Track {
         }
     }
 
-    /// Whether nothing changes in an increment.
-    pub fn pauses(&self, load: &Load) -> bool {
+    /// Whether no load changes in an increment.
+    pub fn stands(&self, load: &Load) -> bool {
         self.last.is_some() && self.last_load.as_ref().is_some_and(|last| last.step == load.step)
+    }
+
+    /// Whether none would with another parameter either.
+    pub fn pauses(&self, load: &Load) -> bool {
+        self.stands(load) && self.last_load.as_ref().is_some_and(|last| last.change == load.change)
     }
 
     /// What is known of an increment before its equations are solved.
