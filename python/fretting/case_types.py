@@ -90,6 +90,33 @@ class CrackConstants(TypedDict):
     """
 
 
+class CrownedRoller(TypedDict):
+    """
+    A crowned roller.
+    """
+
+    axis: Axis
+    """
+    Direction of its axis.
+    """
+    crown_radius: float
+    """
+    Radius of the crown along the axis [length], positive.
+    """
+    flat_length: NotRequired[float]
+    """
+    Length of the straight middle [length]. Default: none, crowned from the middle on.
+    """
+    length: float
+    """
+    Length along the axis [length], positive, with square ends.
+    """
+    radius: float
+    """
+    Radius [length], positive.
+    """
+
+
 class Cylinder(TypedDict):
     """
     A cylinder.
@@ -205,6 +232,12 @@ Held: TypeAlias = Literal["held"]
 Increments: TypeAlias = int | Auto
 
 
+Indenter: TypeAlias = Literal["berkovich", "vickers", "cube_corner"]
+"""
+An indenter with plane sides.
+"""
+
+
 Integration: TypeAlias = Literal["second_order", "end_point"]
 """
 How slip is integrated over an increment.
@@ -311,6 +344,10 @@ class Phase(TypedDict):
     """
     Not available: creepage is the same all along a stage.
     """
+    mean_gap: NotRequired[float]
+    """
+    Of the mean gap.
+    """
     normal_force: NotRequired[float]
     """
     Of the normal force.
@@ -353,10 +390,45 @@ class Phase(TypedDict):
     """
 
 
+class Pyramid(TypedDict):
+    """
+    A pyramid.
+    """
+
+    half_angle: NotRequired[float]
+    """
+    Angle between the axis and a side [degrees], in place of that of the indenter.
+    """
+    indenter: Indenter
+    """
+    A three-sided Berkovich indenter (65.27 degrees), a four-sided Vickers (68 degrees), or the corner of a cube (three sides, 35.264
+    degrees). The first side faces x.
+    """
+
+
 Ramp: TypeAlias = Literal["linear", "square", "cubic"]
 """
 How a ramp runs.
 """
+
+
+class RectangularPunch(TypedDict):
+    """
+    A rectangular flat punch.
+    """
+
+    edge_radius: NotRequired[float]
+    """
+    Radius of the rounding around the flat [length], positive. Default: sharp edges, no body beyond.
+    """
+    length_x: float
+    """
+    Length of the flat along x [length], positive.
+    """
+    length_y: float
+    """
+    Length of the flat along y [length], positive.
+    """
 
 
 Resample: TypeAlias = Literal["none", "linear"]
@@ -453,6 +525,21 @@ class Sphere(TypedDict):
     radius: float
     """
     Radius [length], positive; in a body's own profile negative for a hollow.
+    """
+
+
+class SpheroCone(TypedDict):
+    """
+    A cone with a spherical tip.
+    """
+
+    radius: float
+    """
+    Radius of the tip [length], positive.
+    """
+    slope: float
+    """
+    Slope of the side against the surface, positive: the tangent of the angle between them.
     """
 
 
@@ -617,6 +704,21 @@ WornBody: TypeAlias = Literal["upper", "lower"]
 """
 One of the bodies.
 """
+
+
+class WornSphere(TypedDict):
+    """
+    A worn or truncated sphere.
+    """
+
+    flat_radius: float
+    """
+    Radius of the flat [length], positive.
+    """
+    radius: float
+    """
+    Radius of the sphere [length], positive.
+    """
 
 
 Component: TypeAlias = float | Held
@@ -870,6 +972,10 @@ class Profile(TypedDict):
     """
     A blunt cone, slope r.
     """
+    crowned_roller: NotRequired[CrownedRoller]
+    """
+    A roller of finite length with a crown along its axis.
+    """
     cylinder: NotRequired[Cylinder]
     """
     A cylinder, as the parabola s^2 / (2 R) across its axis.
@@ -886,6 +992,14 @@ class Profile(TypedDict):
     """
     Measured or synthetic topography, one height per cell.
     """
+    pyramid: NotRequired[Pyramid]
+    """
+    A pyramid, tip first: an indenter by its angle.
+    """
+    rectangular_punch: NotRequired[RectangularPunch]
+    """
+    A rectangular flat punch, with sharp or rounded edges.
+    """
     rounded_punch: NotRequired[RoundedPunch]
     """
     A flat punch with a rounded edge: flat within b, (r - b)^2 / (2 R) beyond.
@@ -894,9 +1008,17 @@ class Profile(TypedDict):
     """
     A sphere, as the paraboloid r^2 / (2 R).
     """
+    sphero_cone: NotRequired[SpheroCone]
+    """
+    A cone with a spherical tip: r^2 / (2 R) up to the radius R slope, slope (r - R slope / 2) beyond.
+    """
     wave: NotRequired[Wave]
     """
     A sinusoidal surface amplitude (1 - cos(2 pi x / Lx) cos(2 pi y / Ly)).
+    """
+    worn_sphere: NotRequired[WornSphere]
+    """
+    A worn or truncated sphere: flat within b, (r^2 - b^2) / (2 R) beyond.
     """
 
 
@@ -1050,6 +1172,11 @@ class Stage(TypedDict):
     """
     Number of increments: per stage; with cycles, per cycle; with a table, per row. "auto": 16 per stage, 32 per cycle, 4 per
     row, each with adaptive sub-steps controlled by `solver.history_tolerance`.
+    """
+    mean_gap: NotRequired[float]
+    """
+    Mean gap between the surfaces [length], of periodic half-spaces, which have no approach: at the end of the stage, or the
+    amplitude.
     """
     name: NotRequired[str]
     """
