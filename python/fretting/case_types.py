@@ -573,7 +573,7 @@ class Steady(TypedDict):
     """
 
 
-Steady: TypeAlias = Literal["steady"]
+SteadyRoll: TypeAlias = Literal["steady"]
 
 
 class StrainLife(TypedDict):
@@ -1022,7 +1022,7 @@ class Profile(TypedDict):
     """
 
 
-Roll: TypeAlias = Sequence[Component] | float | Steady
+Roll: TypeAlias = Sequence[Component] | float | SteadyRoll
 
 
 class Wear(TypedDict):

@@ -30,7 +30,7 @@ fn every_template_is_a_case_that_runs() {
     let bench = Bench::new("templates");
     let list: Value = serde_json::from_str(&bench.fret(&["init", "--json"]).out).unwrap();
     let templates = list["templates"].as_array().unwrap();
-    assert_eq!(templates.len(), 7);
+    assert_eq!(templates.len(), 8);
     for template in templates {
         let name = template["name"].as_str().unwrap();
         let written = bench.fret(&["init", name]);

@@ -48,14 +48,7 @@ fn a_measured_line_is_levelled_and_laid_over_the_computed_scar() {
         let numbers: Vec<f64> = line.split(',').map(|word| word.parse().unwrap()).collect();
         own += &format!("{},{}\n", 1e3 * numbers[0], 1e3 * numbers[1] + 0.7);
     }
-    bench.file("own.csv", &own);
-    let answer = bench.fret(&["compare-scar", "out", "own.csv"]);
-    assert_eq!(
-        answer.code,
-        Some(1),
-        "the cells are one too few for a line that ends half a cell within them: {}",
-        answer.out
-    );
+    // with something of the surface beside it
     let wider = own.replacen("position,depth\num,um\n", "position,depth\num,um\n-400,0.7\n", 1) + "400,0.7\n";
     bench.file("own.csv", &wider);
     let answer = bench.fret(&["compare-scar", "out", "own.csv", "--json"]);

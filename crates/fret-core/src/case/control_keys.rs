@@ -36,7 +36,7 @@ pub(super) enum AlongFile {
 /// The word for what rolls until nothing changes any more.
 #[derive(Debug, Clone, Copy, PartialEq, Table, JsonSchema)]
 #[schemars(rename_all = "lowercase", description = "")]
-pub(super) enum SteadyWord {
+pub(super) enum SteadyRoll {
     Steady,
 }
 
@@ -47,7 +47,7 @@ pub(super) enum SteadyWord {
 pub(super) enum RollFile {
     Both([AxisFile; 2]),
     Line(f64),
-    Steady(SteadyWord),
+    Steady(SteadyRoll),
 }
 
 /// Two numbers along x and y; one where both are alike, or in a line contact.
@@ -101,7 +101,7 @@ impl RollFile {
         match self {
             Self::Both(both) => both.map(Into::into).to_vec(),
             Self::Line(one) => vec![Some(one)],
-            Self::Steady(SteadyWord::Steady) => Vec::new(),
+            Self::Steady(SteadyRoll::Steady) => Vec::new(),
         }
     }
 }
