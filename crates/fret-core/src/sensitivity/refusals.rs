@@ -7,7 +7,7 @@ use super::objective::Objective;
 use super::parameter::Parameter;
 use crate::case::{Stage, StageControl};
 use crate::kernel::uniform_response;
-use crate::model::Integration;
+use crate::model::{CoulombFriction, Integration};
 use crate::plan::{Coupling, Plan, Simplification};
 
 /// Whether derivatives are taken of the history of a plan.
@@ -75,7 +75,7 @@ pub(super) fn check_request(
     }
     let of_friction = |objective: &&Objective| objective.column() == "friction_coefficient";
     let mapped = plan.case.friction.is_map()
-        || plan.case.stages.iter().filter_map(|stage| stage.friction.as_ref()).any(|law| law.is_map());
+        || plan.case.stages.iter().filter_map(|stage| stage.friction.as_ref()).any(CoulombFriction::is_map);
     if mapped && objectives.iter().any(|objective| of_friction(&objective)) {
         return Err(SensitivityError::Objective {
             name: "friction_coefficient".to_owned(),
