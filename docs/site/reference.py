@@ -28,7 +28,7 @@ def command_line() -> str:
         "[Messages and exit codes](messages.md).\n",
     ]
     overview = _help()
-    commands = re.findall(r"^  ([a-z]+) ", overview.partition("Commands:")[2].partition("Options:")[0], re.MULTILINE)
+    commands = re.findall(r"^  ([a-z-]+) ", overview.partition("Commands:")[2].partition("Options:")[0], re.MULTILINE)
     parts.append(f"## fret\n\n```text\n{overview}\n```\n")
     parts += [f"## fret {name}\n\n```text\n{_help(name)}\n```\n" for name in commands if name != "help"]
     return "\n".join(parts)

@@ -212,7 +212,7 @@ impl Summary<'_> {
                 }
             };
             let value = figure(energy.dissipated_energy);
-            row(table, &self.heading(&name), std::iter::once(value));
+            row(table, &format!("{} ", self.heading(&name)), std::iter::once(value));
             table.truncate(table.len() - 1);
             let _ = writeln!(table, "  {}", self.stage_name(energy.stage));
         };

@@ -285,9 +285,15 @@ fn not_found(name: &str, lines: &[&str], roles: &[Role], wanted: &[Option<String
     let (there, help) = if best.is_empty() {
         ("there are no names".to_owned(), format!("say which is which, by numbers from 1: {numbered}"))
     } else {
-        let quoted = |place: usize| best.get(place).map(|cell| name_and_unit(cell).0).unwrap_or_default();
-        let short = best.iter().take(needed).map(String::len).sum::<usize>() < 20 * needed;
-        let example = if best.len() >= needed && short { choice(roles, quoted) } else { numbered };
+        // Those that are known by their names; which the others are nobody knows.
+        let by_name = |role: usize| {
+            let names = best.iter().map(|cell| name_and_unit(cell).0);
+            let known = |name: &String| {
+                roles[role].known.contains(&name.to_lowercase().replace([' ', '-'], "_").as_str())
+            };
+            names.into_iter().find(known).unwrap_or_else(|| "...".to_owned())
+        };
+        let example = choice(roles, by_name);
         (
             format!("it has: {}", best.join(" | ")),
             format!("say which is which, by names or by numbers from 1, such as {example}"),

@@ -69,14 +69,21 @@ impl LoopReading {
     }
 }
 
+/// A force nearer to the middle one than this share of the range is at it: which side it lies on is what the solver leaves.
+const AT_MIDDLE: f64 = 1e-6;
+
 /// Half-width at the middle force by the chords between the points.
 fn chord_width(points: &[LoopPoint], force: (f64, f64)) -> f64 {
     let middle = f64::midpoint(force.0, force.1);
+    let above = |point: &LoopPoint| {
+        let above = point.force - middle;
+        if above.abs() <= AT_MIDDLE * (force.1 - force.0) { 0.0 } else { above }
+    };
     let mut crossings = (f64::INFINITY, f64::NEG_INFINITY);
     for pair in points.windows(2) {
-        let [(f0, d0), (f1, d1)] = [0, 1].map(|i| (pair[i].force, pair[i].displacement));
-        if (f0 - middle) * (f1 - middle) <= 0.0 && f0 != f1 {
-            let at = d0 + (d1 - d0) * (middle - f0) / (f1 - f0);
+        let [(f0, d0), (f1, d1)] = [0, 1].map(|i| (above(&pair[i]), pair[i].displacement));
+        if f0 * f1 <= 0.0 && f0 != f1 {
+            let at = d0 - (d1 - d0) * f0 / (f1 - f0);
             crossings = (crossings.0.min(at), crossings.1.max(at));
         }
     }

@@ -11,6 +11,9 @@ const WORN: f64 = 1e-3;
 /// Depths below so many times the roughness beside the scar are those of a rough line.
 const ROUGH: f64 = 20.0;
 
+/// Depths that differ by more are perhaps in other units.
+const FACTOR: f64 = 30.0;
+
 /// A number of both scars.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
@@ -91,6 +94,12 @@ pub fn compare(computed: &Line, width: f64, measured: Measured) -> Result<Compar
             "the surface beside the scar is rough by {:.2e}, {:.0} % of the depth: depth and width are those of a rough line",
             level.beside,
             100.0 * level.beside / other.depth
+        ));
+    }
+    let ratio = other.depth / one.depth;
+    if !(1.0 / FACTOR..FACTOR).contains(&ratio) {
+        notes.push(format!(
+            "the measured scar is {ratio:.1e} times as deep as the computed one: is the unit of the heights right? --units \"height=um\""
         ));
     }
     if level.counts_depths {

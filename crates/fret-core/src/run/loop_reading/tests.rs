@@ -86,3 +86,21 @@ fn a_loop_that_sticks_somewhere_is_read_by_its_chords() {
     });
     assert!(!LoopReading::of(&points).slides);
 }
+
+/// A loop of partial slip from rest and back to the middle, whose forces there are rounding, on whichever side: its width is that of its chords.
+#[test]
+fn forces_at_the_middle_that_are_rounding_do_not_close_a_loop() {
+    let point = |force: f64, displacement: f64| LoopPoint { force, displacement, slid: 0.0, dissipated: 0.0 };
+    for rounding in [[1e-16, 7e-16, -3e-16], [-3e-16, -7e-16, 1e-16], [0.0; 3]] {
+        let [first, way_down, last] = rounding;
+        let points = [
+            point(first, 0.0),
+            point(1.0 + 4e-16, 3.0),
+            point(way_down, 1.0),
+            point(-1.0 - 1e-15, -2.5),
+            point(last, -0.5),
+        ];
+        let found = LoopReading::of(&points);
+        assert!((found.opening - 0.75).abs() < 1e-12, "{rounding:?}: {}", found.opening);
+    }
+}
