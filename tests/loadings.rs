@@ -34,6 +34,9 @@ fn stage(sphere: &Sphere, p: f64, t: f64, increments: usize) -> String {
     )
 }
 
+/// Steps that the row of springs takes in an increment.
+const STEPS: usize = 16;
+
 /// Runs through points (P, T) by straight lines; the largest difference of shift over its range, and of shear (rms in mu p0),
 /// against the row of springs, which takes the same increments.
 fn against_springs(points: &[(f64, f64)], increments: usize, cells: usize) -> (f64, f64) {
@@ -48,10 +51,12 @@ fn against_springs(points: &[(f64, f64)], increments: usize, cells: usize) -> (f
     let (mut k, mut worst_shear) = (0, 0.0_f64);
     for &(p, t) in points {
         for part in 1..=increments {
-            let share = part as f64 / increments as f64;
-            let at = (last.0 + (p - last.0) * share, last.1 + (t - last.1) * share);
-            springs.press(at.0 * sphere.force());
-            springs.pull(at.1 * sphere.force());
+            for step in 1..=STEPS {
+                let share = (part as f64 - 1.0 + step as f64 / STEPS as f64) / increments as f64;
+                let at = (last.0 + (p - last.0) * share, last.1 + (t - last.1) * share);
+                springs.press(at.0 * sphere.force());
+                springs.pull(at.1 * sphere.force());
+            }
             worst = worst.max((history.steps[k].shift[0] - springs.shift).abs());
             range = range.max(springs.shift.abs());
             k += 1;
@@ -139,9 +144,10 @@ fn changing_normal_force_all_the_cases_of_mindlin_and_deresiewicz() {
         ("T constant, P round", &[(1.0, 0.0), (1.0, 0.5 * mu), (0.6, 0.5 * mu), (1.0, 0.5 * mu)]),
     ];
     for (name, points) in cases {
-        let (shift, shear) = against_springs(points, 12, 64);
+        let (shift, shear) = against_springs(points, 24, 64);
         println!("{name}: shift {shift:.1e}, shear rms {shear:.1e} mu p0");
-        // Shift: below the grid's h^2 at a contact radius of 27 cells (1e-3). Shear: the vertical slopes at the borders of stick
+        // Shift: below the grid's h^2 at a contact radius of 27 cells (1e-3). Where the contact grows the increments are off by 1.7e-3,
+        // 5.2e-4, 1.5e-4 at 6, 12, 24 (end points 4.1e-3, 2.2e-3, 1.0e-3). Shear: the vertical slopes at the borders of stick
         // and at the rim, smeared over a cell: up to mu p0 on a share of 1e-4 of the contact.
         assert!(shift < 5e-4, "{name}: {shift}");
         assert!(shear < 2e-2, "{name}: {shear}");
@@ -149,11 +155,13 @@ fn changing_normal_force_all_the_cases_of_mindlin_and_deresiewicz() {
 }
 
 #[test]
-#[ignore = "long: 17 s"]
+#[ignore = "long: 40 s"]
 fn normal_and_tangential_cycles_in_and_out_of_phase() {
     for phase in [0.0, 90.0, 180.0] {
         let sphere = similar(48);
-        let (force, increments) = (sphere.force(), 96);
+        // A quarter of a cycle apart, where the contact grows while slip turns, the second order is worse than end points below that: at 96
+        // its shift is 1.3e-3 off and its energy .4 %, theirs 4.8e-4 and -.1 %.
+        let (force, increments) = (sphere.force(), 192);
         let mut text = sphere.head();
         text += &stage(&sphere, 0.7, 0.0, 6);
         let _ = write!(
@@ -164,18 +172,17 @@ fn normal_and_tangential_cycles_in_and_out_of_phase() {
             0.4 * FRICTION * force
         );
         let history = solved(&text);
-        // Springs that take the increments of the run know its shift; what a spring loses in an increment whose normal force changes
-        // they know to first order only, so that others take four steps an increment.
-        let [mut springs, mut fine] = [springs(&sphere), springs(&sphere)];
+        // Springs follow a normal force that changes to first order in their steps.
+        let mut springs = springs(&sphere);
         let (mut worst, mut range) = (0.0_f64, 0.0_f64);
         for (k, step) in history.steps.iter().enumerate() {
-            for part in 1..=4 {
-                let after = k as f64 + f64::from(part) / 4.0;
+            for part in 1..=STEPS {
+                let after = k as f64 + part as f64 / STEPS as f64;
                 let turn = 2.0 * PI * (after - 6.0).max(0.0) / f64::from(increments);
                 let ahead = f64::to_radians(phase);
                 let cycled = 0.7 + 0.2 * ((turn + ahead).sin() - ahead.sin());
-                fine.press(force * if after < 6.0 { 0.7 * after / 6.0 } else { cycled });
-                fine.pull(0.4 * FRICTION * force * turn.sin());
+                springs.press(force * if after < 6.0 { 0.7 * after / 6.0 } else { cycled });
+                springs.pull(0.4 * FRICTION * force * turn.sin());
             }
             if k >= 6 {
                 let turn = 2.0 * PI * (k - 5) as f64 / f64::from(increments);
@@ -187,12 +194,10 @@ fn normal_and_tangential_cycles_in_and_out_of_phase() {
                     (step.tangential_force[0] - 0.4 * FRICTION * force * turn.sin()).abs() < 1e-7 * force
                 );
             }
-            springs.press(step.normal_force);
-            springs.pull(step.tangential_force[0]);
             worst = worst.max((step.shift[0] - springs.shift).abs());
             range = range.max(springs.shift.abs());
         }
-        let energy = history.steps.last().unwrap().dissipated_energy / fine.dissipated - 1.0;
+        let energy = history.steps.last().unwrap().dissipated_energy / springs.dissipated - 1.0;
         println!("phase {phase}: shift off {:.1e}, energy off {energy:.1e}", worst / range);
         // The grid: a contact radius of 17 to 20 cells. Energy counts the annulus of slip, a few cells wide.
         assert!(worst / range < 1e-3, "{phase}: {}", worst / range);

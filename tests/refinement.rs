@@ -48,10 +48,14 @@ fn cells_show_the_orders_of_a_hertz_contact() {
     assert!((1.7..2.5).contains(&approach), "{approach}");
     assert!((0.85..1.25).contains(&pressure), "{pressure}");
     // Closed form and limit of the study are two ways to one value.
-    let limit = study.limit().unwrap();
+    // On coarse grids that place makes the approach better or worse by chance (orders 3.4, .8, 2.3 from 16 to 128 cells), and there is no
+    // limit to be told; on finer ones it and the closed form are two ways to one value.
+    assert_eq!(study.limit().unwrap().source(Quantity::Approach), Some(Source::Finest));
+    let finer = solved(&plan, Resolutions::new(&plan, &[64, 128, 256], &[], &[]).unwrap());
+    let limit = finer.limit().unwrap();
     assert_eq!(limit.source(Quantity::Approach), Some(Source::Limit));
     let [exact, near] = [&reference, &limit].map(|reference| reference.of(Quantity::Approach)[0].unwrap()[0]);
-    let finest = study.finest().unwrap().ends[0].approach;
+    let finest = finer.finest().unwrap().ends[0].approach;
     assert!((near - exact).abs() < (finest - exact).abs(), "limit {near}, finest {finest}, exact {exact}");
     // The advice is a level of the study where that is good enough, and its errors keep what is promised.
     let advice = study.advice(&reference, 1e-2);

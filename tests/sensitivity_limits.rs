@@ -130,3 +130,66 @@ fn what_is_not_covered_is_refused() {
         assert!(found.contains(key), "{found}");
     }
 }
+
+/// Derivatives that would be wrong in silence, each refused with its reason.
+#[test]
+fn derivatives_that_would_be_wrong_are_refused() {
+    let ball = |lower: &str, upper: &str, loads: &str| {
+        format!(
+            "[grid]\ncells = [16, 16]\nsize = [3.0, 3.0]\n[upper]\n{upper}\n[lower]\nsubstrate = {{ young = 1.0, poisson = {lower} }}\n\
+             [profile.sphere]\nradius = 10.0\n[friction]\ncoefficient = 0.4\n{loads}"
+        )
+    };
+    let (rigid, like) = ("rigid = true", "substrate = { young = 1.0, poisson = 0.3 }");
+    let pressed = "[[load]]\nnormal_force = 0.1\nincrements = 2\n";
+    let stage = |words: &str| format!("{pressed}[[load]]\n{words}\n");
+    for (case, by, word) in [
+        // only the law of friction changes: the tractions do, and no load does
+        (
+            ball(
+                "0.3",
+                rigid,
+                &stage("shift = [0.05, 0.0]\nincrements = 2\n[[load]]\nfriction = 0.2\nincrements = 1"),
+            ),
+            "load[2].friction",
+            "no load changes",
+        ),
+        // a value that is said again: nothing changes, and everything by the number that says it
+        (
+            ball("0.3", rigid, &stage("normal_force = 0.1\nincrements = 1")),
+            "load[1].normal_force",
+            "no load changes",
+        ),
+        // a component that is 0, in a plan of half the grid since it is
+        (
+            ball("0.3", rigid, &stage("tangential_force = [0.01, 0.0]\nincrements = 2")),
+            "load[1].tangential_force[1]",
+            "it is 0",
+        ),
+        // like bodies, whose pressure and shear would act on each other with another constant
+        (
+            ball("0.3", like, "[[load]]\nnormal_force = 0.1\ntilt = [0.02, 0.01]\nincrements = 2\n"),
+            "upper.substrate.young",
+            "not symmetric",
+        ),
+        (ball("0.5", rigid, pressed), "lower.substrate.poisson", "0.499"),
+        // bodies that are apart first: when a cell touches is known to the run in another way
+        (
+            ball(
+                "0.3",
+                rigid,
+                "[[load]]\napproach = -0.05\nincrements = 1\n[[load]]\napproach = 0.06\nshift = [0.02, 0.0]\nincrements = 6\n",
+            ),
+            "load[1].approach",
+            "apart before they touch",
+        ),
+    ] {
+        let refused = found(&planned(&case), &["max_pressure"], &[by]).unwrap_err().to_string();
+        assert!(refused.contains(word), "{by}: {refused}");
+    }
+    let wave = "[grid]\ncells = [64, 4]\nsize = [1.0, 0.1]\nperiodic = true\n[upper]\nrigid = true\n[lower]\nsubstrate = { young = 1.0, poisson = 0.3 }\n\
+                [profile.wave]\namplitude = 0.01\nwavelength_x = 1.0\n[friction]\ncoefficient = 0.4\n[[load]]\nmean_gap = 6e-3\nincrements = 2\n";
+    let refused =
+        found(&planned(wave), &["normal_force"], &["profile.wave.amplitude"]).unwrap_err().to_string();
+    assert!(refused.contains("mean_gap"), "{refused}");
+}
