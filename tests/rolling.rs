@@ -468,3 +468,30 @@ fn a_steady_point_of_a_coated_ball_is_found_soon() {
     let [creepage, spin] = [last.creepage.unwrap()[1], last.spin.unwrap()];
     assert!((creepage / 5e-4 - 1.0).abs() < 1e-9 && (spin / 1e-3 - 1.0).abs() < 1e-9);
 }
+
+/// Lengths whose quotient is a whole number but for rounding, as 1.0000001 cells an increment: the grid moves by whole cells, and nothing is
+/// carried between them.
+#[test]
+fn increments_that_are_whole_cells_but_for_rounding_go_by_whole_cells() {
+    let loads = |roll: f64| {
+        format!(
+            "[[load]]\ntangential_force = [1e-3, 0.0]\nincrements = 2\n[[load]]\nroll = {roll:?}\nincrements = 40\n"
+        )
+    };
+    let last = |size: &str, roll: f64| {
+        let grid = format!("cells = 100\nsize = {size}");
+        let history = solved(&cylinders(&grid, "frame = \"contact\"", &loads(roll)));
+        let step = history.steps.last().unwrap().clone();
+        (step.creepage.unwrap()[0], step.stick_cells)
+    };
+    // forty cells of 0.032, and of a cell shorter by 1e-7 and 3e-7 of itself
+    let (right, cells) = last("3.2", 1.28);
+    for size in ["3.19999968", "3.19999904"] {
+        let (found, sticking) = last(size, 1.28);
+        // Between cells a fraction of 1e-5 would smear the edges of the zones from the tenth increment on.
+        assert!(
+            (found / right - 1.0).abs() < 1e-5 && sticking == cells,
+            "{size}: {found} {right}, {sticking} {cells}"
+        );
+    }
+}

@@ -222,7 +222,8 @@ fn rates(judge: &mut Judge, (files, stages): Loading<'_>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::check::tests::{ROLLER, read, refused};
+    use crate::case::check::tests::{BALL, ROLLER, read, refused};
+    use crate::case::{Attachments, Case};
 
     fn with(stage: &str) -> String {
         format!("increments = 1\n[[load]]\n{stage}\nincrements = 4\n")
@@ -248,8 +249,34 @@ mod tests {
         let punch =
             ("[profile.cylinder]\nradius = 100.0\naxis = \"y\"", "[profile.flat_punch]\nradius = 0.5");
         refused(ROLLER, &[punch, ("increments = 1\n", &one)], "an edge, a flat or a tip", "1.0");
+        // 0, too: the moment would be one about the middle of the grid
+        let ball = "increments = 1\n[[load]]\nroll = [1.0, 0.0]\ntwist_moment = 0.0\nincrements = 4\n";
+        refused(BALL, &[("increments = 1", ball)], "its spin is prescribed", "0.0");
         let tilted = with("roll = 1.0\ntilt = 1e-3");
         refused(ROLLER, &[("increments = 1\n", &tilted)], "middle of the grid", "1e-3");
+    }
+
+    /// The columns of a table prescribe what keys do.
+    #[test]
+    fn what_cannot_roll_by_a_key_cannot_by_a_table() {
+        let text = |increments: &str| {
+            let stage = format!("increments = 1\n[[load]]\ntable = \"way.csv\"\nincrements = {increments}\n");
+            BALL.replacen("increments = 1\n", &stage, 1).replacen(
+                "[friction]",
+                "[kinematics]\nframe = \"contact\"\n[friction]",
+                1,
+            )
+        };
+        for (table, increments, why) in [
+            ("roll_x\n0.5\n1.0\n", "\"auto\"", "whole cells"),
+            ("roll_x,twist_moment\n0.5,1e-3\n1.0,0.0\n", "4", "its spin is prescribed"),
+            ("roll_x,bulk_stress_x\n0.5,1e-3\n1.0,0.0\n", "4", "changes while the contact rolls"),
+        ] {
+            let file = |_: &str| Ok(table.as_bytes().to_vec());
+            let read = Case::from_toml_with(&text(increments), "case.toml", Attachments::files(&file));
+            let message = read.unwrap_err().to_string();
+            assert!(message.contains(why), "{table}: {message}");
+        }
     }
 
     #[test]

@@ -1,7 +1,8 @@
-//! GMRES in double precision to the last digits, preconditioned from the right, for the linear problems of derivatives. That of the solver
-//! (`solver/linear/gmres.rs`) serves Newton steps, which ask for few digits.
+//! The linear problems of derivatives: by the solver's GMRES, in double precision, preconditioned from the right, and what it leaves over solved for
+//! again until the last digits are reached.
 
-use crate::fields::{add_scaled, dot, norm, scale};
+use crate::fields::{add_scaled, norm};
+use crate::solver::{ContactVector, Gmres};
 
 /// Krylov steps at the most.
 const MOST_STEPS: usize = 400;
@@ -50,68 +51,29 @@ pub(super) fn solve(problem: &mut impl LinearProblem, right: &[f64], target: f64
 
 /// One search for the combination of Krylov directions with the least residual.
 fn krylov(problem: &mut impl LinearProblem, right: &[f64], target: f64) -> Vec<f64> {
-    let len = right.len();
     let size = norm(right);
-    let mut first = right.to_vec();
-    scale(&mut first, 1.0 / size);
-    let mut basis = vec![first];
-    let mut columns: Vec<Vec<f64>> = Vec::new();
-    let mut rotations: Vec<[f64; 2]> = Vec::new();
-    let mut rotated = vec![1.0];
-    let mut inverse = vec![0.0; len];
-    while columns.len() < MOST_STEPS {
-        let used = columns.len();
-        problem.invert(&basis[used], &mut inverse);
-        let mut next = vec![0.0; len];
-        problem.apply(&inverse, &mut next);
-        let before = norm(&next);
-        let mut column: Vec<f64> = basis
-            .iter()
-            .map(|direction| {
-                let part = dot(&next, direction);
-                add_scaled(&mut next, -part, direction);
-                part
-            })
-            .collect();
-        let rest = norm(&next);
-        for (index, [cosine, sine]) in rotations.iter().enumerate() {
-            let [upper, lower] = [column[index], column[index + 1]];
-            column[index] = cosine * upper + sine * lower;
-            column[index + 1] = cosine * lower - sine * upper;
-        }
-        let length = column[used].hypot(rest);
-        if !(length > 0.0 && length.is_finite()) {
-            break;
-        }
-        let [cosine, sine] = [column[used] / length, rest / length];
-        column[used] = length;
-        let left = rotated[used];
-        rotated[used] = cosine * left;
-        rotated.push(-sine * left);
-        rotations.push([cosine, sine]);
-        columns.push(column);
-        if (sine * left).abs() <= target || rest <= 1e-15 * before {
-            break;
-        }
-        scale(&mut next, 1.0 / rest);
-        basis.push(next);
-    }
-    let mut amounts = vec![0.0; columns.len()];
-    for row in (0..columns.len()).rev() {
-        let known: f64 = (row + 1..columns.len()).map(|column| columns[column][row] * amounts[column]).sum();
-        amounts[row] = (rotated[row] - known) / columns[row][row];
-    }
-    let mut combination = vec![0.0; len];
-    for (amount, direction) in amounts.iter().zip(&basis) {
-        add_scaled(&mut combination, *amount * size, direction);
-    }
-    problem.invert(&combination, &mut inverse);
+    let mut method = Gmres::<f64>::default();
+    let first = method.right();
+    first.reset(1, right.len());
+    first.values_mut().copy_from_slice(right);
+    first.scale(1.0 / size);
+    let mut inverse = vec![0.0; right.len()];
+    let mut combination = ContactVector::default();
+    let apply = |from: &ContactVector<f64>, to: &mut ContactVector<f64>| {
+        problem.invert(from.values(), &mut inverse);
+        to.clear_like(from);
+        problem.apply(&inverse, to.values_mut());
+    };
+    method.solve(apply, (target, MOST_STEPS), &mut combination);
+    combination.scale(size);
+    problem.invert(combination.values(), &mut inverse);
     inverse
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fields::dot;
     use crate::random::Random;
 
     /// A dense matrix with a diagonal for its approximate inverse.

@@ -56,11 +56,13 @@ use crate::model::{
 };
 
 pub(crate) use contact_set::ContactSet;
+pub(crate) use contact_vector::ContactVector;
 pub(crate) use laws::friction::{
     FrictionLaw, bounds_on_grid as friction_bounds, dissipation, slip_until_open,
 };
 pub(crate) use laws::limit::sliding_fraction;
 pub(crate) use laws::slip_path::{end_of_chord, length_of_way, rate_since_touch};
+pub(crate) use linear::Gmres;
 pub(crate) use linear::preconditioner::{CellWaves, Preconditioner, SlipWeights};
 pub use memory::SolverMemory;
 pub(crate) use outcome::worst;

@@ -8,3 +8,5 @@ pub mod preconditioner;
 pub mod problem;
 mod rigid_projector;
 pub mod solver;
+
+pub use gmres::Gmres;
