@@ -444,6 +444,47 @@ fn the_tension_behind_a_slider_is_found_at_the_rim() {
     assert!(finest.iter().all(|error| *error < 0.015), "{finest:?}");
 }
 
+/// The same behind a sliding cylinder: `2 mu p0`, with a cusp whose root is twice as steep. On every third grid the rim lies a sixth of a
+/// cell before the centre of the last cell, which carries next to nothing.
+#[test]
+fn the_tension_behind_a_sliding_cylinder_is_found_wherever_its_rim_falls() {
+    for cells in [64, 72, 80, 96, 112, 128, 144, 160, 192, 208, 256] {
+        let (poisson, friction, size) = (0.3, 0.5, 3.0);
+        // a = sqrt(4 P R/(pi E*)) = 1
+        let (radius, modulus) = (10.0, 0.5 / (1.0 - poisson * poisson));
+        let force = PI * modulus / (4.0 * radius);
+        let both = format!("substrate = {{ young = 1.0, poisson = {poisson} }}");
+        let history = solved(&format!(
+            "[grid]\ncells = {cells}\nsize = {size:?}\n[upper]\n{both}\n[lower]\n{both}\n[profile.cylinder]\nradius = {radius:?}\n\
+             axis = \"y\"\n[friction]\ncoefficient = {friction}\n[[load]]\nnormal_force = {force:?}\nincrements = 1\n[[load]]\n\
+             shift = [0.3, 0.0]\nincrements = 1\n[solver]\ntolerance = 1e-9\n{}",
+            keeping(1)
+        ));
+        assert_eq!(history.steps[1].stick_cells, 0);
+        let kept = &history.fields[1];
+        let (pressure, shear) = (kept.pressure.as_ref().unwrap(), &kept.shear.as_ref().unwrap()[0]);
+        let none = Array2::zeros((cells, 1));
+        let surface = DepthPoint { depth: 0.0, layer: 0 };
+        let field = stress(
+            &body(&[], Some((1.0, poisson))),
+            surface,
+            &history.grid,
+            false,
+            pressure,
+            Some([shear, &none]),
+        );
+        let mut found = Vec::new();
+        look(&mut found, &field, surface, false, 0, Some(pressure));
+        let tension = found.iter().find(|largest| largest.measure == Measure::Tension).unwrap();
+        let peak = 2.0 * force / PI;
+        let error = tension.value / (2.0 * friction * peak) - 1.0;
+        println!("{cells} cells: {error:+.4} at {:?}", tension.off);
+        // 21 cells in the half-width and more: first order in the cell.
+        assert!(error.abs() < 0.03 * 64.0 / cells as f64 + 0.005, "{cells}: {error}");
+        assert!(tension.off[0] != 0.0, "{cells}: at the centre of a cell");
+    }
+}
+
 /// Errors of the largest tension of the cells and of the rims behind a sliding sphere of contact radius 1, relative, and the place of the
 /// latter along the slide.
 fn tension_behind_a_slider(cells: usize, size: f64, poisson: f64, friction: f64) -> [f64; 3] {

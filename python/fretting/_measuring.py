@@ -63,8 +63,8 @@ def measured(name: str, value: object) -> Any:
         return array.tolist()
     if array.dtype.kind not in "fiub":
         raise TypeError(f"measure: {name} is no number, no text and no array of them, but {type(value).__name__}")
-    if not np.isfinite(array).all():
-        raise ValueError(f"measure: {name} is not finite everywhere")
+    if np.isnan(array).any():
+        raise ValueError(f"measure: {name} is not a number everywhere")
     return array.astype(np.float64).tolist()
 
 

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import math
 import os
 import warnings
 from collections.abc import Iterator
@@ -55,14 +56,35 @@ class SweepFolder:
     def finished(self, case: Table) -> Table | None:
         """Return the result of a finished point; a file that cannot be read is no result."""
         answer = _read(self._place(case))
-        return answer if answer and answer.get("format") == FORMAT and "status" in answer else None
+        if not answer or answer.get("format") != FORMAT or "status" not in answer:
+            return None
+        return _with_measured(answer, _READ)
 
     def keep(self, case: Table, answer: Table) -> None:
         """Write a finished point down: whole or not at all."""
-        write_whole(self._place(case), {"format": FORMAT, "case": case, **answer})
+        write_whole(self._place(case), {"format": FORMAT, "case": case, **_with_measured(answer, _WRITTEN)})
 
     def _place(self, case: Table) -> Path:
         return self.path / "points" / f"{_hash([case, _contents(case), self._settings])}.json"
+
+
+_WRITTEN: dict[object, object] = {math.inf: "inf", -math.inf: "-inf"}
+"""What stands in a file for numbers without bound, which JSON does not have."""
+
+_READ: dict[object, object] = {word: value for value, word in _WRITTEN.items()}
+
+
+def _with_measured(answer: Table, words: dict[object, object]) -> Table:
+    """Return an answer with others for some of the values of `measure`, an endless life among them."""
+    if not answer.get("measured"):
+        return answer
+
+    def replaced(value: object) -> object:
+        if isinstance(value, list):
+            return [replaced(inner) for inner in value]
+        return words.get(value, value)
+
+    return {**answer, "measured": {name: replaced(value) for name, value in answer["measured"].items()}}
 
 
 def write_whole(path: Path, content: Table) -> None:

@@ -106,7 +106,8 @@ def uncertainty(dataset: "xarray.Dataset") -> "xarray.Dataset":
         max), ``NAME_quantile`` with ``quantile`` (0.025, 0.25, 0.5, 0.75, 0.975), and with ``indices=True``
         ``NAME_first`` and ``NAME_total`` with ``uncertain``, the uncertain keys: Sobol' indices of first order
         (Saltelli's estimator) and total (Jansen's). All other dimensions are kept. Points that were not solved do not
-        count.
+        count. A sample without bound, an endless life, is larger than all others: the mean is infinite then, deviation
+        and indices are NaN, quantiles are what they are.
 
     Raises
     ------
@@ -144,8 +145,8 @@ def uncertainty(dataset: "xarray.Dataset") -> "xarray.Dataset":
             continue
         others = tuple(dimension for dimension in variable.dims if dimension != "sample")
         values = variable.transpose("sample", *others).values
-        known = values[:own][np.isfinite(values[:own])]
-        if len(known) < 2 or np.ptp(known) == 0.0:
+        known = values[:own][~np.isnan(values[:own])]
+        if len(known) < 2 or (known == known[0]).all():
             continue
         numbers = _along_samples(_core.statistics, values[:own])
         variables[str(name)] = (("statistic", *others), numbers[: len(STATISTICS)], variable.attrs)

@@ -337,6 +337,20 @@ def test_a_mistake_in_what_is_measured_ends_the_sweep_at_its_first_point(case: d
         fretting.sweep(case, {FRICTION: [0.2, 0.3]}, measure=mistaken, executor=executor)
 
 
+def test_an_endless_life_is_an_answer(case: dict[str, Any], tmp_path: Path) -> None:
+    def life(history: fretting.History) -> dict[str, Any]:
+        endless = history.case["friction"]["coefficient"] < 0.25
+        return {"cycles": np.inf if endless else 2e5, "row": np.array([1.0, -np.inf if endless else 3.0])}
+
+    for solved_before in (0, 2):
+        answer = fretting.sweep(case, {FRICTION: [0.2, 0.3]}, measure=life, folder=tmp_path / "sweep")
+        assert answer.attrs["solved_before"] == solved_before
+        np.testing.assert_array_equal(answer["cycles"].values, [np.inf, 2e5])
+        np.testing.assert_array_equal(answer["row"].values, [[1.0, -np.inf], [1.0, 3.0]])
+    with pytest.raises(ValueError, match="measure: cycles is not a number everywhere"):
+        fretting.sweep(case, {FRICTION: [0.4]}, measure=lambda _: {"cycles": np.nan})
+
+
 def test_where_nothing_is_measured_the_other_numbers_stay(case: dict[str, Any], tmp_path: Path) -> None:
     mend = False
 

@@ -126,6 +126,9 @@ impl Summary<'_> {
             ("approach", |record| figure(record.approach)),
             ("max pressure", |record| figure(record.max_pressure)),
         ];
+        if self.plan.case.counts_mean_gap() {
+            readings[1] = ("mean gap", |record| record.mean_gap.map_or("-".to_owned(), figure));
+        }
         if self.plan.grid.is_line() {
             readings[0].0 = "normal force per unit length";
             readings.push(("contact width", |record| figure(record.contact_area)));
@@ -348,7 +351,7 @@ fn kind_of_row(name: &str) -> &'static str {
     let begins = |words: &[&str]| words.iter().any(|word| name.starts_with(word));
     match name {
         _ if begins(&["normal force", "tangential force"]) => "force",
-        _ if begins(&["approach", "radius", "shift", "max wear depth"]) => "length",
+        _ if begins(&["approach", "mean gap", "radius", "shift", "max wear depth"]) => "length",
         _ if begins(&["contact area", "contact width"]) => "length^2",
         _ if begins(&["max pressure", "max shear", "bulk stress"]) => "pressure",
         _ if begins(&[

@@ -288,7 +288,7 @@ impl<'a> Fatigue<'a> {
             let sense = if stress > 0.0 { "tension" } else { "compression" };
             let channelling = match released.channelling {
                 Some(energy) => self.told(energy, "pressure x length"),
-                None => "not known: the coating's fatigue.channelling_factor".to_owned(),
+                None => "- (needs lower.coatings[..].fatigue.channelling_factor)".to_owned(),
             };
             let _ = writeln!(
                 finished.table,

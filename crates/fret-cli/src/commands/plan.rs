@@ -205,8 +205,9 @@ fn layers(plan: &Plan) -> String {
 
 /// Measured surfaces and what is done to them, a line each.
 fn heights(plan: &Plan) -> String {
+    let unit = plan.case.units.as_ref().map_or_else(String::new, |units| format!(" {}", units.length));
     let treated = plan.case.profile.heights.iter().filter_map(|heights| {
-        let words = heights.treatment()?.words().join(", ");
+        let words = heights.treatment()?.words(&unit).join(", ");
         Some(format!("heights    {}: {words}\n", shortened(heights.source(), STAGE_LETTERS)))
     });
     treated.collect()

@@ -131,7 +131,11 @@ pub fn studied(
         plan.case.cells[1] as f64 / plan.case.cells[0] as f64,
     );
     let measured = if table::shows_errors(&lines) {
-        [words::measured_by(&reference), words::without_order(&reference)].join("\n").trim_end().to_owned()
+        let shown = |quantity| table::shows_errors_of(&lines, quantity);
+        [words::measured_by(&reference, &shown), words::without_order(&reference)]
+            .join("\n")
+            .trim_end()
+            .to_owned()
     } else {
         words::NO_ERRORS.to_owned()
     };

@@ -243,6 +243,7 @@ impl<'a> Board<'a> {
                     Err(_) => {
                         Ok(answer.asked(Err(Failure::Defect(format!("point {number} ended in a panic")))))
                     }
+                    Ok(Err(failure)) if lacks_memory(&failure) => Ok(answer.awaiting_memory(failure)),
                     Ok(Err(failure)) if is_no_answer(&failure) => Err(failure),
                     Ok(more) => Ok(answer.asked(more)),
                 }

@@ -99,7 +99,21 @@ fn look(value: &Value, key: &str, found: &mut Vec<Slider>) {
             }
         }
         Value::Array(items) => {
+            // A component that is nothing reaches as far as the largest beside it.
+            let size =
+                |item: &Value| item.as_float().or_else(|| item.as_integer().map(|number| number as f64));
+            let largest = items.iter().filter_map(size).fold(0.0, |most: f64, value| most.max(value.abs()));
             for (place, item) in items.iter().enumerate() {
+                let key_of_item = format!("{key}.{place}");
+                if size(item) == Some(0.0) {
+                    found.extend(slider(&key_of_item, largest).map(|slider| Slider {
+                        value: 0.0,
+                        low: -slider.high,
+                        logarithmic: false,
+                        ..slider
+                    }));
+                    continue;
+                }
                 let name = item.get("name").and_then(Value::as_str);
                 // a stage goes by its name, where it has one of its own
                 let is_one = |name: &&str| {
@@ -150,6 +164,7 @@ mod tests {
             [
                 "load.press.normal_force",
                 "load.1.tangential_force.0",
+                "load.1.tangential_force.1",
                 "friction.coefficient",
                 "lower.coatings.0.thickness",
                 "lower.coatings.0.young",
@@ -159,6 +174,9 @@ mod tests {
                 "lower.substrate.poisson",
             ]
         );
+        // what pushes along x can push along y as far
+        let across = &found[2];
+        assert_eq!([across.low, across.value, across.high], [-2.5, 0.0, 2.5]);
         for slider in found {
             assert!(
                 (slider.low..=slider.high).contains(&slider.value) && slider.low < slider.high,

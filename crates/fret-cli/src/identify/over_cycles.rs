@@ -45,11 +45,10 @@ pub fn spans(found: &Identification) -> Vec<Span> {
     spans
 }
 
-/// The name of a cycle, and whether it was judged to be in gross slip; nothing of one that was skipped.
+/// The name of a cycle, and whether it is in gross slip; nothing of one that was skipped. That noise hides the friction of a cycle says
+/// nothing about it.
 fn condition(cycle: &Cycle) -> Option<(f64, bool)> {
-    // friction is read in gross slip alone
-    let slides = |all: &Quantities| all.energy_friction.is_some() || all.plateau_friction.is_some();
-    cycle.quantities.as_ref().map(|all| (cycle.measured.name, slides(all)))
+    Some((cycle.measured.name, cycle.quantities.as_ref()?.slides?))
 }
 
 /// The sequence of two conditions that contradicts fewest cycles, where each change costs as much as [`CHANGE`] contradictions (Viterbi).

@@ -133,7 +133,8 @@ impl<'a> Overview<'a> {
         } else if self.direction.is_some() {
             joined(&self.shift, &self.tangential)
         } else {
-            joined(table.column("approach"), table.column("normal_force"))
+            let (_, closeness) = self.closeness();
+            joined(closeness, table.column("normal_force"))
         }
     }
 
@@ -144,7 +145,17 @@ impl<'a> Overview<'a> {
         } else if self.direction.is_some() {
             [self.label("relative displacement", "length"), self.label("tangential force", "force")]
         } else {
-            [self.label("approach", "length"), self.label("normal force", "force")]
+            [self.label(self.closeness().0, "length"), self.label("normal force", "force")]
+        }
+    }
+
+    /// How near the bodies are to each other, by name and values: the mean gap of periodic half-spaces, else the approach.
+    pub fn closeness(&self) -> (&'static str, &[f64]) {
+        let table = &self.results.table;
+        if self.results.case().counts_mean_gap() {
+            ("mean gap", table.column("mean_gap"))
+        } else {
+            ("approach", table.column("approach"))
         }
     }
 

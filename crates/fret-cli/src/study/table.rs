@@ -51,6 +51,12 @@ pub fn shows_errors(lines: &[Line]) -> bool {
     judged.flat_map(columns).any(|(error, _)| error.is_some())
 }
 
+/// Whether any error of a quantity is known: whether it has a column.
+pub fn shows_errors_of(lines: &[Line], quantity: Quantity) -> bool {
+    let mut judged = lines.iter().flat_map(|line| &line.levels);
+    judged.any(|level| columns(level)[quantity as usize].0.is_some())
+}
+
 /// The table: one block per refined quantity. `*` marks levels that no other level beats in work and in its largest error; `-` stands
 /// for an order that the levels do not show.
 pub fn table(study: &RefinementStudy, lines: &[Line], reference: &Reference) -> String {

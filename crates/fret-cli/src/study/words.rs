@@ -18,8 +18,8 @@ pub fn name(quantity: Quantity) -> &'static str {
     }
 }
 
-/// What the quantities are compared with, one sentence per source.
-pub fn measured_by(reference: &Reference) -> String {
+/// What the quantities are compared with, one sentence per source; those whose errors are shown.
+pub fn measured_by(reference: &Reference, shown: &dyn Fn(Quantity) -> bool) -> String {
     let form = reference.form().map_or("", |form| form.name());
     let sources = [
         (Source::ClosedForm, format!("the closed form ({form})")),
@@ -30,7 +30,7 @@ pub fn measured_by(reference: &Reference) -> String {
     let said = sources.into_iter().filter_map(|(source, words)| {
         let numbers: Vec<&str> = Quantity::ALL
             .into_iter()
-            .filter(|quantity| reference.source(*quantity) == Some(source) && happens(reference, *quantity))
+            .filter(|quantity| reference.source(*quantity) == Some(source) && shown(*quantity))
             .map(name)
             .collect();
         (!numbers.is_empty()).then(|| format!("{} compared with {words}", numbers.join(", ")))

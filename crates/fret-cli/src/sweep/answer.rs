@@ -52,6 +52,9 @@ pub struct Numbers {
     /// Why some of these are not there although the case asks for them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unanswered: Option<String>,
+    /// Whether that was the memory of the machine: another time, or another machine, may have it.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    awaits_memory: bool,
 }
 
 /// The way of a loading: a loop.
@@ -146,6 +149,7 @@ impl Answer {
             stress: None,
             heat: None,
             unanswered: None,
+            awaits_memory: false,
         };
         Self { told, numbers: Some(numbers) }
     }
@@ -155,9 +159,12 @@ impl Answer {
         Self { told: FailureRecord { message: failure.message(), ..failure.record() }, numbers: None }
     }
 
-    /// Whether it tells all that one of its kind does.
+    /// Whether it tells all that one of its kind does: else a sweep that is continued solves the point again.
     pub fn is_whole(&self) -> bool {
-        self.numbers.is_some() || self.told.status != SOLVED
+        match &self.numbers {
+            Some(numbers) => !numbers.awaits_memory,
+            None => self.told.status != SOLVED,
+        }
     }
 
     /// The same point with what its case asks for besides; where that cannot be had, what is solved stays, and the reason is told.
@@ -172,6 +179,13 @@ impl Answer {
             }
         }
         self
+    }
+
+    /// The same point without what its case asks for besides, for which this machine has not the memory now.
+    pub fn awaiting_memory(self, failure: Failure) -> Self {
+        let mut answer = self.asked(Err(failure));
+        answer.numbers.iter_mut().for_each(|numbers| numbers.awaits_memory = true);
+        answer
     }
 
     /// Why there is none, a line a mistake; nothing of a solved point that has all that its case asks for.
@@ -218,5 +232,22 @@ mod tests {
         let read: Answer = serde_json::from_value(json!(answer)).unwrap();
         assert!(read.is_whole());
         assert_eq!(read.numbers.unwrap().increments_in_common, 3);
+    }
+
+    /// What is solved is solved: its numbers stand in the tables, what is missing is named, and a sweep that is continued asks again.
+    #[test]
+    fn a_point_without_memory_for_its_stresses_keeps_its_numbers() {
+        let solved = r#"{"status": "solved", "message": "", "help": null, "mistakes": null, "increments_in_common": 0,
+            "end": null, "stages": [], "cycle": null}"#;
+        let answer: Answer = serde_json::from_str(solved).unwrap();
+        assert!(answer.is_whole());
+        let failure = Failure::Call("stresses need 12 GB, and there are 8 GB".to_owned(), String::new());
+        let waiting = answer.awaiting_memory(failure);
+        let again: Answer = serde_json::from_str(&serde_json::to_string(&waiting).unwrap()).unwrap();
+        for answer in [waiting, again] {
+            assert!(answer.numbers.is_some() && !answer.is_whole());
+            assert_eq!(answer.status(), "solved");
+            assert!(answer.message().contains("stresses need 12 GB"));
+        }
     }
 }

@@ -68,6 +68,10 @@ const OF_CRACK: [Row<CrackRecord>; 6] = [
     ("crack_angle", "", |crack| followed(crack).map(|[_, _, angle, _]| json!(angle))),
     ("crack_length", "length", |crack| followed(crack).map(|[.., length]| json!(length))),
     ("crack_cycles", "", |crack| match crack {
+        // a crack that does not grow, or stops, is followed without end
+        CrackRecord::Followed { fate, .. } if ["does_not_grow", "stops"].contains(&fate.as_str()) => {
+            Some(json!(INFINITE))
+        }
         CrackRecord::Followed { cycles, .. } => cycles.map(|cycles| json!(cycles)),
         CrackRecord::None { .. } => None,
     }),
@@ -247,6 +251,26 @@ mod tests {
         for name in CYCLE {
             assert!(CYCLE_COLUMNS.iter().any(|column| column.name == name), "{name}");
         }
+    }
+
+    /// Also where no Paris law is given: whether it ends is known without.
+    #[test]
+    fn a_crack_that_stops_has_an_endless_life() {
+        let (_, _, cycles) = OF_CRACK[5];
+        let crack = |fate: &str, cycles: Option<f64>| CrackRecord::Followed {
+            fate: fate.to_owned(),
+            x: 0.0,
+            y: 0.0,
+            angle: 0.0,
+            towards: [1.0, 0.0],
+            length: 1.0,
+            cycles,
+        };
+        for fate in ["does_not_grow", "stops"] {
+            assert_eq!(cycles(&crack(fate, None)), Some(json!("inf")));
+        }
+        assert_eq!(cycles(&crack("grows", Some(2e5))), Some(json!(2e5)));
+        assert_eq!(cycles(&crack("grows", None)), None);
     }
 
     /// What pandas and spreadsheets read as infinite is more than every limit; what is missing is no number.

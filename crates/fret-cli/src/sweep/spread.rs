@@ -27,7 +27,8 @@ impl Quantity {
     /// Whether the number varies by more than rounding.
     fn varies(&self) -> bool {
         let Statistics { deviation, min, max, .. } = self.statistics;
-        deviation > ROUNDING * min.abs().max(max.abs())
+        // what is endless in some samples has no deviation, and varies
+        deviation > ROUNDING * min.abs().max(max.abs()) || min < max && (max - min).is_infinite()
     }
 }
 
@@ -136,7 +137,12 @@ impl<'a> Spread<'a> {
             let [low, _, median, _, high] = statistics.quantiles;
             let _ = write!(table, "{name:<NAMES$}");
             for value in [statistics.mean, statistics.deviation, low, median, high] {
-                let _ = write!(table, "{:<COLUMN$}", figure(value));
+                let word = match value {
+                    f64::INFINITY => "unlimited".to_owned(),
+                    value if value.is_nan() => "-".to_owned(),
+                    value => figure(value),
+                };
+                let _ = write!(table, "{word:<COLUMN$}");
             }
             table.truncate(table.trim_end().len());
             table.push('\n');

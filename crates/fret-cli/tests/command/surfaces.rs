@@ -158,3 +158,23 @@ fn every_bad_shape_is_one_clear_message_at_its_place() {
         one_mistake(&bench, &case, place, &words);
     }
 }
+
+/// Periodic half-spaces have a mean gap and no approach: summary and page say so.
+#[test]
+fn a_mean_gap_is_shown_as_a_mean_gap() {
+    let bench = Bench::new("mean-gap");
+    let case = "units = { length = 'mm', force = 'N' }\ngrid = { cells = [32, 32], size = [1.0, 1.0], periodic = true }\n\
+                upper.rigid = true\nlower.substrate = { young = 1e3, poisson = 0.3 }\n\
+                profile.wave = { amplitude = 0.01, wavelength_x = 1.0, wavelength_y = 1.0 }\n\
+                [[load]]\nmean_gap = 0.0075\nincrements = 4\n";
+    let answer = bench.file("case.toml", case).fret(&["run", "case.toml"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    let row = answer.out.lines().find(|line| line.starts_with("mean gap [mm]")).unwrap_or_default();
+    assert!(row.ends_with("7.5000e-3"), "{}", answer.out);
+    assert!(!answer.out.contains("approach"), "{}", answer.out);
+    assert_eq!(bench.fret(&["report", "results/case"]).code, Some(0));
+    let page = bench.text("results/case/report.html");
+    for words in ["mean gap 0.0075", "Normal force over mean gap."] {
+        assert!(page.contains(words), "{words}");
+    }
+}

@@ -138,6 +138,11 @@ impl<M, H> Case<M, H> {
         self.cells[1] == 1
     }
 
+    /// Whether the bodies have a mean gap in place of an approach: periodic half-spaces, which a uniform pressure moves without bound.
+    pub fn counts_mean_gap(&self) -> bool {
+        self.periodic && uniform_response(&self.bodies).is_none()
+    }
+
     /// Springs between the upper body and what is driven.
     pub fn springs(&self) -> Rig {
         self.rig.unwrap_or(Rig::RIGID)

@@ -8,8 +8,8 @@ use crate::model::{Symmetry, Zone};
 /// The contact as the cells see it.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Footprint {
-    /// Radius of the contact in cells: that of a circle of as many cells, or less where the contact is narrow: 1.1 times the radius
-    /// of the disc whose chords are as long as its own are on the average along x, or along y. So it is the radius of a disc, 1.4
+    /// Radius of the contact in cells: that of a circle of as many cells, where the contact ends along both axes, or less where it is narrow:
+    /// 1.1 times the radius of the disc whose chords are as long as its own are on the average along x, or along y. So it is the radius of a disc, 1.4
     /// half-widths of a strip or a line contact, and about the mean radius of the patches where there are many. `None` without contact, and for a
     /// contact without any edge.
     pub radius: Option<f64>,
@@ -45,7 +45,9 @@ impl Footprint {
         // Every chord has two ends; a disc's are pi/2 radii long in the mean.
         let by_chords = faces.map(|faces| 4.0 * cells as f64 / (std::f64::consts::PI * faces as f64));
         let narrow = by_chords[0].min(by_chords[1]);
-        let circle = if ny == 1 { f64::INFINITY } else { (cells as f64 / std::f64::consts::PI).sqrt() };
+        // A strip that has no ends is no disc of as many cells, however few of them the grid shows along it.
+        let is_endless = by_chords.iter().any(|chord| chord.is_infinite());
+        let circle = if is_endless { f64::INFINITY } else { (cells as f64 / std::f64::consts::PI).sqrt() };
         Self { radius: narrow.is_finite().then_some(circle.min(1.1 * narrow)), free }
     }
 }
@@ -111,6 +113,11 @@ mod tests {
         assert!((strip.radius.unwrap() / 5.0 - 1.4).abs() < 0.01, "{strip:?}");
         let across = footprint(&zones([64, 64], |x, y| y.abs() < 5.0 && x.abs() < 28.0));
         assert_eq!(strip.radius, across.radius);
+        // The same strip where it repeats along its length, shown by four cells of it.
+        for (cells, axis) in [([128, 4], 0), ([4, 128], 1)] {
+            let endless = footprint(&zones(cells, |x, y| [x, y][axis].abs() < 5.0));
+            assert!((endless.radius.unwrap() / 5.0 - 1.4).abs() < 0.01, "{endless:?}");
+        }
         // Sixteen discs of four cells' radius.
         let patches = |x: f64, y: f64| {
             let off = |u: f64| (u + 32.0).rem_euclid(16.0) - 8.0;

@@ -98,6 +98,14 @@ impl Flanks {
         (opening >= onset && unsure < UNSURE && agrees).then_some(force)
     }
 
+    /// Whether the contact slides as a whole in a loop, by its half-width and its amplitudes, of displacement and force. Relative to the amplitude `A` at the actuator, it grows with `A` all
+    /// along, in partial and in gross slip, and at the onset it is `(h(1) - 2 h(1/2))/(h(1) + 1/S)`: neither friction nor the force at the
+    /// sharp ends of the loop is needed, which few points do not tell. Without `1/S` the amplitude of force has to serve.
+    pub fn slides(&self, opening: f64, [length, force]: [f64; 2], stiffness: Option<f64>) -> bool {
+        let limit = stiffness.map_or(force, |stiffness| length / (self.whole + 1.0 / stiffness));
+        opening >= (self.whole - self.half) * limit
+    }
+
     /// Way of the actuator from a turn to full sliding [length].
     pub fn way(&self, force: f64, stiffness: Option<f64>, slope: f64) -> f64 {
         let spring =

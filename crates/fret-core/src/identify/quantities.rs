@@ -38,6 +38,8 @@ pub struct Quantities {
     pub plateau_friction: Option<f64>,
     /// From energy and opening, in gross slip.
     pub energy_friction: Option<f64>,
+    /// Whether the contact slides as a whole, by the half-width beside the amplitude; nothing where it is not known how the contact yields.
+    pub slides: Option<bool>,
 }
 
 /// What the quantities of a cycle are read with.
@@ -103,6 +105,9 @@ impl MeasuredCycle {
                 .and_then(|(flanks, limit)| self.plateau(steep?, flanks.way(limit, known.stiffness, steep?)))
                 .map(|force| force / pressed),
             energy_friction: friction.map(|(_, limit)| limit / pressed),
+            slides: known
+                .flanks
+                .map(|flanks| flanks.slides(opening, [amplitude, force_amplitude], known.stiffness)),
         }
     }
 

@@ -126,8 +126,9 @@ impl Path {
         }
     }
 
-    /// How far below a plane it runs.
-    fn below(self, plane: f64) -> Self {
+    /// How far below a plane it runs: a mean gap is the mean plane of the undeformed gap less the approach, and the other way round.
+    #[must_use]
+    pub fn below(self, plane: f64) -> Self {
         match self {
             Self::To(value) => Self::To(plane - value),
             Self::Wave { amplitude, phase } => Self::Wave { amplitude: -amplitude, phase },

@@ -33,8 +33,8 @@ pub struct Treatment {
 }
 
 impl Treatment {
-    /// What was done, as sentences of a summary are: parts without a full stop.
-    pub fn words(&self) -> Vec<String> {
+    /// What was done, as sentences of a summary are: parts without a full stop. `unit` stands behind every length, with a space before it.
+    pub fn words(&self, unit: &str) -> Vec<String> {
         let [nx, ny] = self.points;
         let mut words = vec![if ny == 1 { format!("{nx} points") } else { format!("{nx} x {ny} points") }];
         words.extend(self.read_by.iter().map(|reader| format!("read by {reader}")));
@@ -46,11 +46,11 @@ impl Treatment {
             }
         }
         if let Some(cut) = &self.cut {
-            let parts: Vec<String> = cut.iter().map(|[from, to]| format!("{from} to {to}")).collect();
+            let parts: Vec<String> = cut.iter().map(|[from, to]| format!("{from} to {to}{unit}")).collect();
             words.push(format!("cut to {}", parts.join(", ")));
         }
-        words.extend(self.short_cutoff.map(|length| format!("waves shorter than {length} taken off")));
-        words.extend(self.long_cutoff.map(|length| format!("waves longer than {length} taken off")));
+        words.extend(self.short_cutoff.map(|length| format!("waves shorter than {length}{unit} taken off")));
+        words.extend(self.long_cutoff.map(|length| format!("waves longer than {length}{unit} taken off")));
         words.extend(self.resample.as_ref().map(|how| format!("resampled to the grid ({how})")));
         words
     }

@@ -6,6 +6,9 @@
 const OUTWARDS: f64 = 0.08;
 /// Distance from the rim below which a centre feels the single cell at the rim [cells].
 const NEAREST: f64 = 0.3;
+/// A last cell that carries less than this part of the pressure of the one behind it counts as open: the rim lies before its centre, and
+/// what the stress under it shows is the far side of the cusp.
+const FAINT: f64 = 0.1;
 
 /// A value at a rim of a line of cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,11 +45,15 @@ pub(super) fn at_rims_of(value: impl Fn(usize) -> f64, pressure: &[f64]) -> Vec<
             let is = |distance: isize, loaded: bool| {
                 at(distance).is_none_or(|place| (pressure[place] > 0.0) == loaded)
             };
+            // the last cell whose pressure tells where the rim is
+            let is_faint = |faint: f64, behind: f64| faint < FAINT * behind;
+            let is_last = at(1).is_none_or(|next| pressure[next] <= 0.0 || is_faint(pressure[next], p))
+                && at(-1).is_none_or(|behind| !is_faint(p, pressure[behind]));
             // two open cells at least; beyond the end of the line all are open
             if at(2).is_none() || at(-3).is_none() {
                 continue;
             }
-            if !((1..=4).all(|k| is(k, false)) && (-3..=-1).all(|k| is(k, true))) {
+            if !(is_last && (2..=4).all(|k| is(k, false)) && (-3..=-1).all(|k| is(k, true))) {
                 continue;
             }
             let inside = [-1, -2, -3].map(|k| at(k).map_or(0.0, |place| pressure[place]));

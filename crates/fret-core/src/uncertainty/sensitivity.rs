@@ -12,7 +12,8 @@ pub struct Sensitivity {
 }
 
 /// Sobol' indices of a result, one a number, from its values in the rows of a design of `count` samples with blocks for indices. A
-/// sample of which a value is no number does not count in any block; `None` where fewer than two are left or the result does not vary.
+/// sample of which a value is no number does not count in any block; `None` where fewer than two are left, the result does not vary, or a value is
+/// infinite: it has no variance then.
 ///
 /// First order after Saltelli et al. (2010), Comput. Phys. Commun. 181, 259: `mean(f_B (f_ABi - f_A))/V`; total after Jansen (1999), Comput.
 /// Phys. Commun. 117, 35: `mean((f_A - f_ABi)^2)/(2 V)`. Values are taken relative to their mean, which changes no exact index and
@@ -21,7 +22,7 @@ pub fn sensitivity(values: &[f64], count: usize) -> Option<Vec<Sensitivity>> {
     let blocks: Vec<&[f64]> = values.chunks_exact(count).collect();
     let (&[a, b], mixed) = blocks.split_first_chunk::<2>()?;
     let good: Vec<usize> = (0..count).filter(|&n| blocks.iter().all(|block| block[n].is_finite())).collect();
-    if good.len() < 2 || mixed.is_empty() {
+    if good.len() < 2 || mixed.is_empty() || values.iter().any(|value| value.is_infinite()) {
         return None;
     }
     let number = good.len() as f64;
@@ -45,6 +46,15 @@ mod tests {
 
     use super::*;
     use crate::uncertainty::{Distribution, SampleDesign};
+
+    /// Of the finite samples alone they would be indices of another number.
+    #[test]
+    fn a_life_that_is_endless_in_some_samples_has_no_indices() {
+        let mut values: Vec<f64> = (0..12).map(|n| f64::from(n * n % 7)).collect();
+        assert!(sensitivity(&values, 3).is_some());
+        values[4] = f64::INFINITY;
+        assert_eq!(sensitivity(&values, 3), None);
+    }
 
     #[test]
     fn ishigamis_function_has_its_indices() {

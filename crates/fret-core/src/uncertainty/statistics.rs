@@ -1,30 +1,61 @@
 //! Mean, standard deviation and quantiles of samples.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// Fractions below the quantiles that are told.
 pub const QUANTILES: [f64; 5] = [0.025, 0.25, 0.5, 0.75, 0.975];
 
-/// What samples of a number have in common.
+/// What samples of a number have in common. A sample without bound, an endless life, is larger than any other: the mean is infinite then, there is no
+/// deviation, and quantiles are what they are.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Statistics {
     /// Samples that count.
     pub count: usize,
     /// Mean.
+    #[serde(serialize_with = "bounded")]
     pub mean: f64,
-    /// Standard deviation of the distribution that was sampled (divisor n - 1).
+    /// Standard deviation of the distribution that was sampled (divisor n - 1); not a number where a sample is infinite.
     pub deviation: f64,
     /// Smallest value.
+    #[serde(serialize_with = "bounded")]
     pub min: f64,
     /// Largest value.
+    #[serde(serialize_with = "bounded")]
     pub max: f64,
     /// Values below which lie the fractions [`QUANTILES`], linear between samples.
+    #[serde(serialize_with = "each_bounded")]
     pub quantiles: [f64; 5],
+}
+
+/// A number as files have it: those beyond all bounds as the words that programs read as such.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Written {
+    Number(f64),
+    Word(&'static str),
+}
+
+impl Written {
+    fn of(value: f64) -> Self {
+        match value {
+            f64::INFINITY => Self::Word("inf"),
+            f64::NEG_INFINITY => Self::Word("-inf"),
+            value => Self::Number(value),
+        }
+    }
+}
+
+fn bounded<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    Written::of(*value).serialize(serializer)
+}
+
+fn each_bounded<S: Serializer>(values: &[f64; 5], serializer: S) -> Result<S::Ok, S::Error> {
+    values.map(Written::of).serialize(serializer)
 }
 
 /// Statistics of samples; those that are no numbers do not count. `None` of fewer than two.
 pub fn statistics(values: &[f64]) -> Option<Statistics> {
-    let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    let mut sorted: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
     sorted.sort_by(f64::total_cmp);
     let count = sorted.len();
     let (first, last) = (*sorted.first()?, *sorted.last()?);
@@ -38,7 +69,13 @@ pub fn statistics(values: &[f64]) -> Option<Statistics> {
         let place = (fraction * count as f64 - 0.5).clamp(0.0, (count - 1) as f64);
         let below = place.floor() as usize;
         let above = (below + 1).min(count - 1);
-        sorted[below] + (place - below as f64) * (sorted[above] - sorted[below])
+        let part = place - below as f64;
+        // nothing of an infinite neighbour, or of one as infinite, is no number
+        if part == 0.0 || sorted[above] == sorted[below] {
+            sorted[below]
+        } else {
+            sorted[below] + part * (sorted[above] - sorted[below])
+        }
     };
     Some(Statistics {
         count,
@@ -70,5 +107,19 @@ mod tests {
         }
         assert!((found.mean - 10.0).abs() < 1e-3 && (found.deviation - 2.0).abs() < 5e-3, "{found:?}");
         assert_eq!(statistics(&[1.0, f64::NAN]), None);
+    }
+
+    /// Lives of ten samples, of which three are endless: the median is that of all ten, and the files have words for the rest.
+    #[test]
+    fn endless_lives_count_among_the_samples() {
+        let lives: Vec<f64> = (1..=7).map(f64::from).chain([f64::INFINITY; 3]).collect();
+        let found = statistics(&lives).unwrap();
+        assert_eq!((found.count, found.min, found.mean, found.max), (10, 1.0, f64::INFINITY, f64::INFINITY));
+        assert_eq!(found.quantiles, [1.0, 3.0, 5.5, f64::INFINITY, f64::INFINITY]);
+        assert!(found.deviation.is_nan());
+        let written = serde_json::to_value(found).unwrap();
+        assert_eq!(written["mean"], "inf");
+        assert_eq!(written["quantiles"], serde_json::json!([1.0, 3.0, 5.5, "inf", "inf"]));
+        assert!(written["deviation"].is_null());
     }
 }

@@ -16,12 +16,12 @@ fn joined(x: &[f64], y: &[f64]) -> Vec<[f64; 2]> {
     x.iter().zip(y).map(|(x, y)| [*x, *y]).collect()
 }
 
-/// Normal force over approach, and the loads over the increments.
+/// Normal force over approach or mean gap, and the loads over the increments.
 pub fn loading(view: &Overview<'_>) -> Markup {
     let table = &view.results.table;
-    let (approach, force) = (table.column("approach"), table.column("normal_force"));
-    let mut curves = vec![Curve::line(joined(approach, force), "computed", 0)];
-    let mut caption = "Normal force over approach.".to_owned();
+    let ((closeness, values), force) = (view.closeness(), table.column("normal_force"));
+    let mut curves = vec![Curve::line(joined(values, force), "computed", 0)];
+    let mut caption = format!("Normal force over {closeness}.");
     if let Some(form) = &view.normal_form {
         let most = force.iter().copied().fold(0.0, f64::max);
         let curve = (1..=100).filter_map(|part| {
@@ -32,9 +32,11 @@ pub fn loading(view: &Overview<'_>) -> Markup {
         curves.insert(0, Curve::dashed(std::iter::once([0.0; 2]).chain(curve).collect(), name, 1));
         caption += &format!(" Dashed: {name}, without friction.");
     }
-    let axes = [view.label("approach", "length"), view.label("normal force", "force")];
-    let mut figures =
-        vec![figure_of(&Chart::new("normal force over approach", axes, curves).in_page(), &caption)];
+    let axes = [view.label(closeness, "length"), view.label("normal force", "force")];
+    let mut figures = vec![figure_of(
+        &Chart::new(&format!("normal force over {closeness}"), axes, curves).in_page(),
+        &caption,
+    )];
     if table.rows() > 1 {
         let ([from, to], called) = view.shown_increments();
         let over_number = |values: &[f64]| joined(&table.column("increment")[from..to], &values[from..to]);

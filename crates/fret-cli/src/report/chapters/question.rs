@@ -225,7 +225,15 @@ fn stage(view: &Overview<'_>, stage: &Stage<MapSummary>) -> Markup {
                 Some(format!("{name} {}", path(view, control.path(), unit)?))
             }));
         };
-    add(&stage.normal, ["normal force", "approach"], ["force", "length"]);
+    match &stage.normal {
+        Some(StageControl::Motion(path)) if view.results.case().counts_mean_gap() => {
+            // a case prescribes the gap; a stage holds how far that is below the mean plane
+            let plane = view.results.table.at("approach", 0) + view.results.table.at("mean_gap", 0);
+            let gap = StageControl::Motion(path.clone().below(plane));
+            add(&Some(gap), ["", "mean gap"], ["", "length"]);
+        }
+        normal => add(normal, ["normal force", "approach"], ["force", "length"]),
+    }
     for (axis, name) in ["x", "y"].into_iter().enumerate() {
         let names = [format!("tangential force {name}"), format!("displacement {name}")];
         add(&stage.tangential[axis], [&names[0], &names[1]], ["force", "length"]);

@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use super::points::MOST_LOOPS;
 use super::view::View;
 use crate::drawing::Drawing;
 use crate::drawing::frame::{Frame, room_for};
@@ -80,9 +81,14 @@ fn drawn(view: &View, [across, up]: [usize; 2], points: &[usize]) -> Drawing {
         @for &point in points {
             @let condition = view.condition(point);
             @let at = [frame.x_of(view.position(across, point)), frame.y_of(view.position(up, point))];
-            a href=(format!("#point-{point}")) aria-label=(format!("point {point}: {}", in_words(condition))) {
+            @let content = html! {
                 title { (view.place(&[across, up], point)) ": " (in_words(condition)) }
                 (mark(condition, at))
+            };
+            @if point < MOST_LOOPS {
+                a href=(format!("#point-{point}")) aria-label=(format!("point {point}: {}", in_words(condition))) { (content) }
+            } @else {
+                g { (content) }
             }
         }
     };

@@ -8,8 +8,8 @@ use crate::drawing::scale::Label;
 use crate::report::html::{chapter, figure_of, pairs};
 use crate::sweep::Path;
 
-/// Points whose loops stand in the page, at the most.
-const MOST_LOOPS: usize = 500;
+/// Points that stand in the page each with its loop, at the most: links lead to these.
+pub const MOST_LOOPS: usize = 500;
 /// Rows of the table, at the most.
 const MOST_ROWS: usize = 1000;
 /// Columns of the table beside the keys, where a sweep has them.
@@ -104,7 +104,9 @@ pub fn table(view: &View) -> Markup {
                 tbody {
                     @for point in 0..rows {
                         tr {
-                            td { a href=(format!("#point-{point}")) { (point) } }
+                            td {
+                                @if point < MOST_LOOPS { a href=(format!("#point-{point}")) { (point) } } @else { (point) }
+                            }
                             @for (key, value) in view.record.points[point].values.iter().enumerate() {
                                 td { (view.value(key, value)) }
                             }

@@ -8,7 +8,7 @@ use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::scale::Label;
 use crate::figures::figure;
 use crate::report::html::{chapter, figure_of, side_by_side, table};
-use crate::sweep::columns::SummaryColumn;
+use crate::sweep::columns::{SummaryColumn, number as told};
 
 /// Numbers that vary by less, relative, do not.
 const ROUNDING: f64 = 1e-9;
@@ -71,8 +71,9 @@ fn distributions(told: &Value) -> String {
 /// Name and entry of the quantities that vary.
 fn varying(quantities: &Value) -> Vec<(&String, &Value)> {
     let varies = |of: &Value| {
-        let [deviation, min, max] = ["deviation", "min", "max"].map(|name| of[name].as_f64().unwrap_or(0.0));
-        deviation > ROUNDING * min.abs().max(max.abs())
+        let [deviation, min, max] = ["deviation", "min", "max"].map(|name| told(&of[name]));
+        // what is endless in some samples has no deviation, and varies
+        deviation > ROUNDING * min.abs().max(max.abs()) || min < max && (max - min).is_infinite()
     };
     quantities.as_object().into_iter().flatten().filter(|(_, of)| varies(of)).collect()
 }
@@ -84,8 +85,11 @@ fn column_called<'a>(view: &'a View, name: &str) -> Option<&'a SummaryColumn> {
 fn quantiles(view: &View, quantities: &Value) -> Markup {
     let row = |(name, of): (&String, &Value)| {
         let unit = column_called(view, name).and_then(|column| view.unit(&column.kind)).unwrap_or_default();
-        let number =
-            |value: &Value| value.as_f64().map_or("–".to_owned(), |value| figure(value).replace('-', "−"));
+        let number = |value: &Value| match told(value) {
+            f64::INFINITY => "unlimited".to_owned(),
+            value if value.is_nan() => "–".to_owned(),
+            value => figure(value).replace('-', "−"),
+        };
         let quantile = |place: usize| number(&of["quantiles"][place]);
         vec![
             spoken(name),

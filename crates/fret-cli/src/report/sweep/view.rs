@@ -70,7 +70,11 @@ impl View {
         let uncertainty =
             if uncertainty.exists() && !record.drawn.is_empty() { Some(read(&uncertainty)?) } else { None };
         let name = folder.file_name().map_or_else(String::new, |name| name.display().to_string());
-        Ok(Self { columns: columns(&answers), folder: name, record, answers, uncertainty })
+        // What is nowhere anything but nothing, wear where nothing wears, is no column of a page; the files have it.
+        let mut columns = columns(&answers);
+        let is_nothing = |value: &Value| value.is_null() || value.as_f64() == Some(0.0);
+        columns.retain(|column| !column.values.iter().all(is_nothing));
+        Ok(Self { columns, folder: name, record, answers, uncertainty })
     }
 
     /// The title of the page.
@@ -218,7 +222,11 @@ pub fn called(key: &str) -> String {
     match before {
         ["profile", shape] => format!("{spoken} of the {}", shape.replace('_', " ")),
         ["friction" | "wear"] if before[0] != *end => format!("{} {spoken}", before[0]),
-        [] | ["load" | "grid"] => spoken,
+        ["load"] => match number("load") {
+            Some(stage) => format!("{spoken}, stage {}", stage + 1),
+            None => spoken,
+        },
+        [] | ["grid"] => spoken,
         ["load", rest @ ..] => format!("{spoken}, {}", place(rest)),
         before => format!("{spoken}, {}", place(before)),
     }
@@ -263,7 +271,8 @@ mod tests {
         for (key, words) in [
             ("friction.coefficient", "friction coefficient"),
             ("load.rub.tangential_force.0", "tangential force, rub"),
-            ("load.0.normal_force", "normal force"),
+            ("load.0.normal_force", "normal force, stage 1"),
+            ("load.1.normal_force", "normal force, stage 2"),
             ("lower.coatings.1.young", "Young's modulus, lower coating 2"),
             ("load.rub.shift.1", "shift y, rub"),
             ("profile.sphere.radius", "radius of the sphere"),
