@@ -61,6 +61,7 @@ mod stiff_and_extreme;
 mod subsurface;
 mod surfaces;
 mod thinning;
+mod third_body;
 mod tilt;
 mod two_bodies;
 mod wear;

@@ -18,6 +18,7 @@ FieldName = Literal[
     "worn_depth",
     "lower_worn_depth",
     "upper_worn_depth",
+    "debris",
     "friction",
 ]
 FIELD_NAMES: tuple[str, ...] = get_args(FieldName)

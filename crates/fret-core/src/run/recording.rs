@@ -3,7 +3,7 @@
 use ndarray::Array2;
 
 use crate::fields::{copied, largest};
-use crate::history::{Footprint, KeptFields, Residual, StepRecord};
+use crate::history::{DebrisRecord, Footprint, KeptFields, Residual, StepRecord};
 use crate::machine::memory::MemoryError;
 use crate::model::{CellMap, CellValues, ContactState, CoulombFriction, Rig, Symmetry, Zone};
 use crate::solver::Increment;
@@ -54,6 +54,7 @@ pub fn record(
         unresolved_energy: state.unresolved_energy,
         worn_volume: 0.0,
         max_worn_depth: 0.0,
+        debris: DebrisRecord::default(),
         friction_coefficient: mean_coefficient(friction, &state.pressure),
         roll: state.roll,
         creepage: None,
@@ -109,6 +110,7 @@ pub fn kept(
         zone: asked("zone").then(|| whole_zones(&state.zone, symmetry)).transpose()?,
         worn_depth: None,
         own_worn_depth: None,
+        debris: None,
         friction: one("friction", &coefficients)?,
         rest: None,
     })
