@@ -104,10 +104,10 @@ def ball_on_coating(
     displacement: str = "small",
     size: float = 0.52,
 ) -> fretting.History:
-    """Wear a TiC coating of 1.6 um on steel by an alumina ball that does not wear, in gross slip, until a volume is reached.
+    """Wear a TiC coating of 1.6 um on steel by an alumina ball, which does not wear, in gross slip, to a volume.
 
-    Depth follows from volume and, where surfaces move, from the stroke: friction only makes it slide. The grid is longer
-    by the stroke where they move; `cells` are those across it.
+    Depth follows from volume and, where surfaces move, from the stroke: friction only makes it slide. The grid is
+    longer by the stroke where they move; `cells` are those across it.
     """
     coefficient = 415e-12  # 415 um3/J = 415e-12 mm3/(N mm)
     more = 2 * math.ceil(stroke / size * cells) if displacement == "finite" else 0

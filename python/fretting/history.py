@@ -59,7 +59,8 @@ class History:
         ``actuator_amplitude``, ``actuator_energy_ratio``, ``actuator_sliding_ratio``, ``actuator_stiffness``,
         ``friction_coefficient`` (mean), and where friction evolves ``friction_change``, ``jump_error``; of layers that
         wear ``lower_worn_depth``, ``upper_worn_depth``, ``compliance_spread``, ``wear_jump_error``, of debris
-        ``debris_volume``, ``debris_outflow`` (float, NaN where a cycle has none); ``steady`` (bool); ``drive``, ``regime`` (str).
+        ``debris_volume``, ``debris_outflow`` (float, NaN where a cycle has none); ``steady`` (bool); ``drive``,
+        ``regime`` (str).
     running_conditions : list of str or None
         ``"partial"``, ``"mixed"`` or ``"gross"`` for each stage; None for one without cycles.
     worn_through : dict or None
