@@ -220,7 +220,7 @@ fn with_debris_between_the_surfaces() {
     let jumps =
         WORN.replace("coefficient = 2e-11\nevery = 4", "coefficient = 2e-11\ntolerance = 0.4") + third;
     let kept = |text: &str| text.replace("\"worn_depth\"", "\"worn_depth\", \"debris\"");
-    let mut texts = vec![kept(&HEAD.to_owned()) + &jumps];
+    let mut texts = vec![kept(HEAD) + &jumps];
     texts.extend(mirrored(&jumps).map(|(text, _)| kept(&text)));
     let moving = HEAD
         .replace("rigid = true", "rigid = true\nwear_coefficient = 5e-14")

@@ -98,8 +98,8 @@ fn debris_of_a_coating_that_is_worn_through_is_kept_with_symmetry() {
     assert!(off < 1e-5, "{off:e}");
 }
 
-/// Where bodies that touch have debris between them, `w_l + w_u = (a^2 - x^2)/(2 R) + b` but for what they give elastically, of which
-/// `2 ln 2 P/(pi E*)` is the most, and what the last cycles wore after the last pressure was found.
+/// Where bodies that touch have debris between them, `w_l + w_u = (a^2 - x^2)/(2 R) + b` but for what they give elastically,
+/// `2 ln 2 P/(pi E*)` under an even pressure, and what the last cycles wore after the last pressure was found.
 #[test]
 fn debris_fills_the_gap_between_bodies_that_touch() {
     let elastic = 2.0 * 2.0_f64.ln() * line_force() / PI;

@@ -138,7 +138,9 @@ impl Debris {
     /// Adds what wore off the upper body in an increment, in the cells of the lower one.
     pub fn add_above(&mut self, worn: [&Array2<f64>; 2]) {
         if let Some(above) = &mut self.collected.above {
-            worn.into_iter().for_each(|worn| *above += worn);
+            for worn in worn {
+                *above += worn;
+            }
         }
     }
 
@@ -197,7 +199,9 @@ impl Debris {
         let CollectedDebris { above, last, last_cycles, .. } = &mut self.collected;
         *last = self.tolerance.map(|_| [of_one, cycle.path.clone()]);
         *last_cycles = cycles;
-        above.iter_mut().for_each(|above| above.fill(0.0));
+        if let Some(above) = above {
+            above.fill(0.0);
+        }
         (gone, error)
     }
 }
