@@ -22,6 +22,7 @@ mod evolving_friction;
 mod first_law;
 mod fretting_cycles;
 mod friction_on_patches;
+mod friction_work;
 mod frictional_counts;
 mod hard_increments;
 mod histories;

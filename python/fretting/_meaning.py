@@ -19,6 +19,7 @@ FieldName = Literal[
     "lower_worn_depth",
     "upper_worn_depth",
     "debris",
+    "friction_work",
     "friction",
 ]
 FIELD_NAMES: tuple[str, ...] = get_args(FieldName)

@@ -200,10 +200,11 @@ class History:
         ----------
         name : str
             ``"pressure"``, ``"shear_x"``, ``"shear_y"``, ``"slip_x"``, ``"slip_y"``, ``"gap"``, ``"zone"``,
-            ``"worn_depth"``, ``"lower_worn_depth"``, ``"upper_worn_depth"``, ``"debris"``, ``"friction"``, ``"shear"``
-            or ``"slip"``.
+            ``"worn_depth"``, ``"lower_worn_depth"``, ``"upper_worn_depth"``, ``"debris"``,
+            ``"friction_work"``, ``"friction"``, ``"shear"`` or ``"slip"``.
             ``lower_worn_depth``, ``upper_worn_depth``: of each body in its own frame, kept with ``worn_depth`` where
-            ``kinematics.displacement = "finite"``; ``debris``: its thickness, of a case with ``wear.debris``.
+            ``kinematics.displacement = "finite"``; ``debris``: its thickness, of a case with ``wear.debris``;
+            ``friction_work``: energy dissipated in the increment by area.
             ``slip_x``, ``slip_y``: relative slip since the start of the history, signed (the sum of the slip
             increments, not the slip distance); ``zone``: 0 open, 1 stick, 2 slip; ``shear``, ``slip``: both
             components, along the first axis.

@@ -111,6 +111,13 @@ pub static FIELDS: &[Field] = &[
         values: |kept| kept.debris.as_ref().map(Reals),
     },
     Field {
+        name: "friction_work",
+        asked_as: "friction_work",
+        meaning: "energy that friction dissipates in the increment by area: friction bound times slip distance",
+        unit: "pressure x length",
+        values: |kept| kept.friction_work.as_ref().map(Reals),
+    },
+    Field {
         name: "friction",
         asked_as: "friction",
         meaning: "coefficient of friction",

@@ -126,6 +126,8 @@ pub struct KeptFields {
     pub gap: Option<Array2<f64>>,
     /// Zone of each cell.
     pub zone: Option<Array2<Zone>>,
+    /// What friction dissipated in the increment by area [pressure x length].
+    pub friction_work: Option<Array2<f64>>,
     /// Worn depth, of both bodies together [length].
     pub worn_depth: Option<Array2<f64>>,
     /// That of the lower and of the upper body, each in its own frame, where they move against each other [length].

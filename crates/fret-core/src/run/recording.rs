@@ -108,6 +108,11 @@ pub fn kept(
         slip: two("slip", &state.slip)?,
         gap: one("gap", &solved.gap)?,
         zone: asked("zone").then(|| whole_zones(&state.zone, symmetry)).transpose()?,
+        friction_work: solved
+            .friction_work
+            .as_ref()
+            .and_then(|work| one("friction_work", work).transpose())
+            .transpose()?,
         worn_depth: None,
         own_worn_depth: None,
         debris: None,

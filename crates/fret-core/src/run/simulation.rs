@@ -188,6 +188,7 @@ impl<'a> Simulation<'a> {
                 reuse_pressure: plan.leave_out.takes(Simplification::Pressure)
                     && !plan.moves
                     && !case.rolls(),
+                friction_work: case.output.fields.iter().any(|name| name == "friction_work"),
                 skip_unloaded_shear: plan.leave_out.takes(Simplification::Tangential),
                 ..SolverSettings::new(case.tolerance)
             },
