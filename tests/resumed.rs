@@ -211,6 +211,38 @@ fn with_surfaces_that_move() {
     assert_eq!(Some(&kept[1]), whole.state.upper_worn_depth.as_ref());
 }
 
+/// Debris that fills the gap and flows out, of wear by the distance from the rim, in jumps of bounded error; also of surfaces that move, and of a
+/// part with symmetry reduction.
+#[test]
+fn with_debris_between_the_surfaces() {
+    let third =
+        "[wear.debris]\nfraction = 0.5\noutflow_length = 1e-6\n[wear.rim]\nwidth = 12e-6\ninterior = 0.3\n";
+    let jumps =
+        WORN.replace("coefficient = 2e-11\nevery = 4", "coefficient = 2e-11\ntolerance = 0.4") + third;
+    let kept = |text: &str| text.replace("\"worn_depth\"", "\"worn_depth\", \"debris\"");
+    let mut texts = vec![kept(HEAD) + &jumps];
+    texts.extend(mirrored(&jumps).map(|(text, _)| kept(&text)));
+    let moving = HEAD
+        .replace("rigid = true", "rigid = true\nwear_coefficient = 5e-14")
+        .replace("poisson = 0.3 }", "poisson = 0.3, wear_coefficient = 2e-13 }")
+        .replace("[friction]", "[kinematics]\ndisplacement = \"finite\"\n[friction]");
+    let far = jumps
+        .replace("coefficient = 2e-11\n", "")
+        .replace("[60e-9, 0.0]", "[15e-6, 5e-6]")
+        .replace("[30e-9, 20e-9]", "[5e-6, 2e-6]")
+        .replace("outflow_length = 1e-6", "outflow_length = 3e-4");
+    texts.push(kept(&moving) + &far + "upper_interior = 0.1\n");
+    for text in texts {
+        let whole = resumed_anywhere(&text);
+        let blocks: Vec<usize> = whole.cycles.iter().map(|cycle| cycle.stands_for).collect();
+        assert!(blocks.iter().any(|block| *block > 1), "{blocks:?}");
+        let last = whole.steps.last().unwrap();
+        assert!(last.debris.volume > 0.0 && last.debris.outflow > 0.0);
+        let kept = whole.fields.last().unwrap().debris.as_ref();
+        assert_eq!(kept, whole.state.debris.as_ref());
+    }
+}
+
 /// Back and forth with wear on a grid fixed to the bodies; far and steadily on one that goes with the contact.
 #[test]
 fn with_a_contact_that_rolls() {

@@ -74,15 +74,21 @@ def impact_spin(of: Measured) -> Table:
     return head, rows
 
 
-def scar(of: Measured) -> Table:
+def scar(of: Measured, moving: Measured) -> Table:
     """Return the table of the wear scar of a cylinder."""
-    wear = of["mccoll"]
+    wear = {**of["mccoll"], "moving": moving["mccoll"]["computed"]}
     names = {
         "measured": "measured",
         "finite_elements": "finite elements, moving surfaces",
+        "moving": "computed, surfaces move",
         "computed": "computed, surfaces stay",
     }
-    rms = {"measured": "-", "finite_elements": f"{wear['rms_finite_elements']:.2f}", "computed": f"{wear['rms']:.2f}"}
+    rms = {
+        "measured": "-",
+        "finite_elements": f"{wear['rms_finite_elements']:.2f}",
+        "moving": f"{moving['mccoll']['rms']:.2f}",
+        "computed": f"{wear['rms']:.2f}",
+    }
     rows = [
         [
             text,
@@ -102,7 +108,7 @@ def scar(of: Measured) -> Table:
     ], rows
 
 
-def coating(of: Measured) -> Table:
+def coating(of: Measured, moving: Measured) -> Table:
     """Return the table of depths in a hard coating."""
     wear = of["fouvry_2007"]
     depths = wear["measured"]
@@ -110,6 +116,10 @@ def coating(of: Measured) -> Table:
         [
             "measured, before and after spalling",
             f"{depths['before_spalling']:.2f}, {' to '.join(f'{d:.2f}' for d in depths['after_spalling'])}",
+        ],
+        *[
+            [f"computed, surfaces move, stroke +-{row['stroke']:.0f} um", f"{row['depth']:.2f}"]
+            for row in moving["fouvry_2007"]
         ],
         ["computed, surfaces stay", f"{wear['computed']:.2f}"],
         *[[f"closed form, stroke +-{row['stroke']:.0f} um", f"{row['depth']:.2f}"] for row in wear["strokes"]],
@@ -133,6 +143,36 @@ def titanium_scars(of: Measured) -> Table:
         )
     three = "rigid cap / elastic cap / computed"
     return ["scar", "half-width [mm], measured", three, "depth [mm], measured", three], rows
+
+
+def titanium_debris(of: Measured, moving: Measured) -> Table:
+    """Return the table of the scars of Ti-6Al-4V with debris."""
+    seen = {row["shape"]: row for row in of["arnaud"]["rows"]}
+    found = moving["arnaud"]
+    names = [
+        ("U", "U, debris kept", "U"),
+        ("W", f"W, debris kept, rim of {found['rim']:.2f} mm", "W"),
+        ("W_by_power", f"W, debris kept, rim of {found['rim_by_power']:.2f} mm", "W"),
+    ]
+    rows = []
+    for key, text, shape in names:
+        ours, theirs = found[key], seen[shape]
+        pairs = [
+            (ours["half_width"], theirs["half_width_mm"], 2),
+            (ours["depth"], theirs["deepest_mm"], 3),
+            (ours["deepest_at"], theirs["deepest_at_mm"], 1),
+            (ours["middle"], theirs["middle_mm"], 3),
+            (ours["area"], theirs["area_mm2"], 2),
+        ]
+        rows.append([text, *[f"{mine:.{digits}f} / {other:.{digits}f}" for mine, other, digits in pairs]])
+    return [
+        "computed / measured",
+        "half-width [mm]",
+        "depth [mm]",
+        "deepest at [mm]",
+        "middle [mm]",
+        "area [mm2]",
+    ], rows
 
 
 def titanium_energy(of: Measured) -> Table:
@@ -176,6 +216,41 @@ def _higher_friction(of: Measured) -> str:
         parts.append(f"{values} at {angle:.1f} degrees (measured {measured[angle]:.3f})")
     frictions = ", ".join(f"{friction:g}" for friction in sorted({row["friction"] for row in rows}))
     return f"$\\mu$ = {frictions} give {'; '.join(parts)}"
+
+
+def moving_numbers(of: Measured, moving: Measured) -> dict[str, str]:
+    """Return the single numbers of bodies that move, and of debris, by name."""
+    scar, elements, seen = moving["mccoll"]["computed"], of["mccoll"]["finite_elements"], of["mccoll"]["measured"]
+    before = of["fouvry_2007"]["measured"]["before_spalling"]
+    depths = {row["stroke"]: row["depth"] for row in moving["fouvry_2007"]}
+    coarser = [abs(row["coarser"] / row["depth"] - 1) for row in moving["fouvry_2007"]]
+    titanium = moving["arnaud"]
+    u, w, by_power = titanium["U"], titanium["W"], titanium["W_by_power"]
+    rows = {row["shape"]: row for row in of["arnaud"]["rows"]}
+    off = {
+        f"{name}_{part}": percent(found[part] / rows[shape][key] - 1)
+        for name, found, shape in (("u", u, "U"), ("w", w, "W"), ("power", by_power, "W"))
+        for part, key in (("half_width", "half_width_mm"), ("depth", "deepest_mm"), ("middle", "middle_mm"), ("area", "area_mm2"))
+    }  # fmt: skip
+    return {
+        "moving_depth": percent(scar["depth"] / seen["depth"] - 1),
+        "moving_width": percent(scar["half_width"] / seen["half_width"] - 1),
+        "moving_area": percent(scar["area"] / seen["area"] - 1),
+        **{
+            f"moving_{name}_elements": percent(abs(scar[name] / elements[name] - 1)).lstrip("+")
+            for name in ("depth", "half_width", "area")
+        },
+        "moving_grid": percent(abs(moving["mccoll"]["coarser"]["depth"] / scar["depth"] - 1)).lstrip("+"),
+        "moving_coating": " and ".join(f"{depths[stroke]:.2f}" for stroke in (50.0, 100.0)),
+        "moving_coating_error": " and ".join(percent(depths[stroke] / before - 1) for stroke in (50.0, 100.0)),
+        "moving_coating_grid": percent(max(coarser)).lstrip("+"),
+        "debris_fraction": f"{titanium['fraction']:.2f}",
+        "debris_rim": f"{titanium['rim']:.2f}",
+        "debris_rim_by_power": f"{titanium['rim_by_power']:.2f}",
+        "debris_energy": f"{u['energy_per_length']:.0f}",
+        "debris_middle": f"{u['debris']:.3f}",
+        **{f"debris_{name}": text for name, text in off.items()},
+    }
 
 
 def numbers(of: Measured) -> dict[str, str]:

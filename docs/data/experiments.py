@@ -156,6 +156,69 @@ def _deepest(history: fretting.History) -> float:
     return float(history.field("worn_depth").max()) * 1e3
 
 
+def _titanium(history: fretting.History) -> dict[str, Any]:
+    place, worn, debris = history.x, history.field("worn_depth"), history.field("debris")
+    dx, middle = place[1] - place[0], len(place) // 2
+    deepest = middle + int(worn[middle:].argmax())
+    return {
+        "half_width": scars.width(place, worn, 0.01),
+        "depth": float(worn.max()),
+        "deepest_at": float(place[deepest]),
+        "middle": float(worn[middle]),
+        "debris": float(debris.max()),
+        "area": float(worn.sum() * dx),
+        "energy_per_length": 1e-3 * float(history.cycles["total_dissipated_energy"][-1]),
+        "sliding": float(history.cycles["opening"][-1]),
+        "cycles": len(history.cycles["cycle"]),
+        "x": [round(float(x), 4) for x in place[middle::2]],
+        "worn": [round(float(d), 6) for d in worn[middle::2]],
+    }
+
+
+def moving_scars() -> dict[str, Any]:
+    """Return worn scars of bodies that move, and with debris, beside what was measured."""
+    of = QUOTED["fouvry_2007"]
+    volume = of["largest_volume_um3"] * 1e-9
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", fretting.FrettingWarning)
+        history = scars.mccoll(160, jump=24, displacement="finite")
+        place, depth = scars.mccoll_scar(history)
+        at, seen = scars.measured_scar()
+        near = np.abs(at) < 0.3
+        half = len(place) // 2
+        mccoll = {
+            "x": [round(float(x), 6) for x in place[half:]],
+            "depth": [round(float(d), 5) for d in depth[half:]],
+            "computed": {**_scar(place, depth), "cycles": len(history.cycles["cycle"])},
+            "rms": float(np.sqrt(np.mean((seen - np.interp(at, place, depth))[near] ** 2))),
+            "coarser": _scar(*scars.mccoll_scar(scars.mccoll(80, jump=24, displacement="finite"))),
+        }
+        balls = []
+        for stroke in (0.05, 0.1):
+            found = {
+                cells: float(
+                    scars.ball_on_coating(cells, volume, step, stroke, "finite").field("lower_worn_depth").max() * 1e3
+                )
+                for cells, step in ((32, 0.04), (64, 0.02))
+            }
+            balls.append({"stroke": 1e3 * stroke, "depth": found[64], "coarser": found[32]})
+            print(balls[-1], flush=True)
+        modulus = analytic.effective_moduli(upper=scars.TITANIUM, lower=scars.TITANIUM).normal
+        hertz = analytic.hertz_line(radius=80.0, line_force=1066.0, modulus=modulus)
+        width = scars.rim_by_power(
+            QUOTED["arnaud_2021"]["power_threshold_W_per_mm2"], 2.0, hertz.max_pressure, hertz.half_width
+        )
+        titanium = {
+            "fraction": scars.FRACTION,
+            "rim": scars.RIM,
+            "rim_by_power": width,
+            "U": _titanium(scars.titanium_with_debris(240)),
+            "W": _titanium(scars.titanium_with_debris(240, scars.RIM)),
+            "W_by_power": _titanium(scars.titanium_with_debris(240, width)),
+        }
+    return {"mccoll": mccoll, "fouvry_2007": balls, "arnaud": titanium}
+
+
 def fouvry_2017() -> dict[str, Any]:
     """Return Hertz pressures and dissipated energies of the test matrix beside the printed ones."""
     of = QUOTED["fouvry_2017"]

@@ -20,7 +20,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from experiments import experiments
+from experiments import experiments, moving_scars
+from moving_cost import moving_cost
 from orders import orders
 
 import fretting
@@ -338,6 +339,8 @@ MEASUREMENTS = {
     "cost": cost,
     "orders": orders,
     "experiments": experiments,
+    "moving_scars": moving_scars,
+    "moving_cost": moving_cost,
 }
 
 

@@ -169,6 +169,22 @@ def cost() -> str:
     )
 
 
+def moving_cost() -> str:
+    """Return the table of what moving surfaces cost."""
+    of = data("moving_cost")
+    rows = [
+        [
+            row["case"],
+            *(f"{row[kind]['applications']:.1f}" for kind in ("small", "finite")),
+            f"{100 * (row['finite']['applications'] / row['small']['applications'] - 1):+.0f} %",
+            *(f"{1e3 * row[kind]['seconds'] / row['increments']:.2f}" for kind in ("small", "finite")),
+        ]
+        for row in of["rows"]
+    ]
+    head = ["case", "applications per increment, small", "finite", "difference", "CPU time per increment [ms], small", "finite"]  # fmt: skip
+    return _table(head, rows, of)
+
+
 def others() -> str:
     """Return the times of other programs."""
     of = data("others")
@@ -299,6 +315,20 @@ def _experiment(name: str) -> Callable[[], str]:
     return table
 
 
+def _moving(name: str) -> Callable[[], str]:
+    """Return what writes a table of that page with bodies that move, or with debris, beside the others."""
+
+    def table() -> str:
+        of, moving = data("experiments"), data("moving_scars")
+        return _table(*getattr(experiment_tables, name)(of, moving), moving)
+
+    return table
+
+
+def _moving_number(name: str) -> Callable[[], str]:
+    return lambda: experiment_tables.moving_numbers(data("experiments"), data("moving_scars"))[name]
+
+
 def _number(name: str) -> Callable[[], str]:
     """Return what writes a number of the page Comparison with experiments."""
     return lambda: experiment_tables.numbers(data("experiments"))[name]
@@ -309,13 +339,12 @@ TABLES: dict[str, Callable[[], str]] = {
     "spence": spence,
     "orders": orders,
     "cost": cost,
+    "moving_cost": moving_cost,
     "others": others,
     "large": large,
     "threads": threads,
-    **{
-        name: _experiment(name)
-        for name in ("impact", "impact_spin", "scar", "coating", "titanium_scars", "titanium_energy")
-    },
+    **{name: _experiment(name) for name in ("impact", "impact_spin", "titanium_scars", "titanium_energy")},
+    **{name: _moving(name) for name in ("scar", "coating", "titanium_debris")},
 }
 NUMBERS: dict[str, Callable[[], str]] = {
     "random_cases": _random(1),
@@ -326,6 +355,10 @@ NUMBERS: dict[str, Callable[[], str]] = {
     "sliding_stick": _sliding("last_stick", 2),
     "sliding_far": _sliding("far", 4),
     **{name: _number(name) for name in experiment_tables.numbers(data("experiments"))},
+    **{
+        name: _moving_number(name)
+        for name in experiment_tables.moving_numbers(data("experiments"), data("moving_scars"))
+    },
 }
 
 if __name__ == "__main__":

@@ -1,9 +1,11 @@
 """Worn scars beside measured ones: a cylinder and a ball in gross slip, and the closed forms of a finite stroke.
 
-Lengths in mm, forces in N. Profiles stay where they are in the program; the closed forms say what motion changes.
+Lengths in mm, forces in N. Surfaces stay where they are or move with their bodies; the closed forms say what motion
+changes for rigid ones.
 """
 
 import csv
+import math
 from pathlib import Path
 from typing import Any
 
@@ -53,7 +55,9 @@ FLAT, CYLINDER = 2.9e-8, 1.9e-8
 """Archard coefficients of McColl's flat and cylinder [1/MPa]."""
 
 
-def mccoll(cells: int, friction: float = 0.9, jump: int = 3, increments: int = 16) -> fretting.History:
+def mccoll(
+    cells: int, friction: float = 0.9, jump: int = 3, increments: int = 16, displacement: str = "small"
+) -> fretting.History:
     """Wear a steel cylinder of R = 6 mm and a flat for 18 000 cycles of +-25 um under 18.5 N/mm."""
     return fretting.run(
         {
@@ -62,6 +66,7 @@ def mccoll(cells: int, friction: float = 0.9, jump: int = 3, increments: int = 1
             "lower": {"substrate": {**STEEL, "wear_coefficient": FLAT}},
             "profile": {"cylinder": {"radius": 6.0, "axis": "y"}},
             "friction": {"coefficient": friction},
+            "kinematics": {"displacement": displacement},
             "wear": {"law": "archard", "every": jump, "largest_step": 1.0},
             "load": [
                 {"normal_force": 18.5, "increments": 8, "ramp": "square"},
@@ -73,7 +78,9 @@ def mccoll(cells: int, friction: float = 0.9, jump: int = 3, increments: int = 1
 
 
 def mccoll_scar(history: fretting.History) -> tuple[Any, Any]:
-    """Return places [mm] and depth [um] of the flat's scar: its fraction of the wear depth of both bodies."""
+    """Return places [mm] and depth [um] of the flat's scar: its own, or its fraction of that of both bodies."""
+    if history.case["kinematics"]["displacement"] == "finite":
+        return history.x, 1e3 * history.field("lower_worn_depth")
     return history.x, 1e3 * history.field("worn_depth") * FLAT / (FLAT + CYLINDER)
 
 
@@ -90,28 +97,36 @@ def ball_depth(volume: float, radius: float, stroke: float) -> float:
 
 
 def ball_on_coating(
-    cells: int, volume: float, largest_step: float = 0.02, radius: float = 12.7, force: float = 100.0
+    cells: int,
+    volume: float,
+    largest_step: float = 0.02,
+    stroke: float = 0.05,
+    displacement: str = "small",
+    size: float = 0.52,
 ) -> fretting.History:
-    """Wear a TiC coating of 1.6 um on steel by an alumina ball in gross slip, +-50 um, until a volume is reached.
+    """Wear a TiC coating of 1.6 um on steel by an alumina ball, which does not wear, in gross slip, to a volume.
 
-    Depth follows from volume, whatever friction and stroke: those of the case only make it slide.
+    Depth follows from volume and, where surfaces move, from the stroke: friction only makes it slide. The grid is
+    longer by the stroke where they move; `cells` are those across it.
     """
     coefficient = 415e-12  # 415 um3/J = 415e-12 mm3/(N mm)
+    more = 2 * math.ceil(stroke / size * cells) if displacement == "finite" else 0
 
     def case(cycles: int, jump: int, worn: float) -> dict[str, Any]:
         return {
-            "grid": {"cells": [cells, cells], "size": [0.52, 0.52]},
+            "grid": {"cells": [cells + more, cells], "size": [size * (cells + more) / cells, size]},
             "upper": {"substrate": {"young": 370e3, "poisson": 0.27}},
             "lower": {
-                "coatings": [{"thickness": 1.6e-3, "young": 510e3, "poisson": 0.2}],
-                "substrate": {"young": 230e3, "poisson": 0.3},
+                "coatings": [{"thickness": 1.6e-3, "young": 510e3, "poisson": 0.2, "wear_coefficient": worn}],
+                "substrate": {"young": 230e3, "poisson": 0.3, "wear_coefficient": worn},
             },
-            "profile": {"sphere": {"radius": radius}},
+            "profile": {"sphere": {"radius": 12.7}},
             "friction": {"coefficient": 0.3},
-            "wear": {"law": "energy", "coefficient": worn, "every": jump, "largest_step": largest_step},
+            "kinematics": {"displacement": displacement},
+            "wear": {"law": "energy", "every": jump, "largest_step": largest_step},
             "load": [
-                {"normal_force": force, "increments": 8, "ramp": "cubic"},
-                {"shift": [0.05, 0.0], "cycles": cycles, "increments": 16},
+                {"normal_force": 100.0, "increments": 8, "ramp": "cubic"},
+                {"shift": [stroke, 0.0], "cycles": cycles, "increments": 16},
             ],
             "output": {"fields": ["worn_depth"]},
         }
@@ -180,6 +195,56 @@ def titanium(cells: int, area: float, cycles: int = 5000) -> fretting.History:
     worn = area / (energy * cycles)
     reached = fretting.run(case(cycles, cycles, worn)).cycles["worn_volume"][-1]
     return fretting.run(case(cycles, cycles, worn * area / reached))
+
+
+ALPHA = {"rim": (5.1e-4 + 4.1e-4) / 2, "interior": (1.0e-4 + 1.0e-5) / 2}
+"""Wear of both bodies by energy in the model of Arnaud and others [mm3/J], each body with half of it."""
+FRACTION = 0.94
+"""What stays of the debris, fitted to the half-width of the U scar."""
+RIM = 0.65
+"""Width of the rim [mm], fitted to the depth of the W scar."""
+
+
+def rim_by_power(threshold: float, frequency: float, max_pressure: float, half_width: float) -> float:
+    """Return the width of the rim of a Hertzian contact where the power ``4 mu p s f`` is below a threshold [W/mm2]."""
+    pressure = 1e3 * threshold / (4 * 0.6 * 0.075 * frequency)
+    return half_width * (1 - float(np.sqrt(max(1 - (pressure / max_pressure) ** 2, 0.0))))
+
+
+def titanium_with_debris(cells: int, width: float | None = None, fraction: float = FRACTION) -> fretting.History:
+    """Wear cylinder and flat of Ti-6Al-4V for 5000 cycles of +-75 um of sliding, with debris that stays.
+
+    `width` of the rim within which they wear by the higher coefficient; None: they do everywhere. The displacement is
+    larger than the sliding by what the bodies give, which a first run finds.
+    """
+
+    def run(shift: float) -> fretting.History:
+        wear: dict[str, Any] = {
+            "law": "energy",
+            "coefficient": 1e-3 * ALPHA["rim"],
+            "tolerance": 0.1,
+            "largest_step": 0.1,
+            "debris": {"fraction": fraction},
+        }
+        if width is not None:
+            wear["rim"] = {"width": width, "interior": ALPHA["interior"] / ALPHA["rim"]}
+        return fretting.run(
+            {
+                "grid": {"cells": cells, "size": 6.0, "datum": 80.0},
+                "upper": {"substrate": TITANIUM},
+                "lower": {"substrate": TITANIUM},
+                "profile": {"cylinder": {"radius": 80.0, "axis": "y"}},
+                "friction": {"coefficient": 0.6},
+                "wear": wear,
+                "load": [
+                    {"normal_force": 1066.0, "increments": 4},
+                    {"shift": [shift, 0.0], "cycles": 5000, "increments": 8},
+                ],
+                "output": {"fields": ["worn_depth", "debris"]},
+            }
+        )
+
+    return run(0.110 + 0.075 - float(run(0.110).cycles["opening"][-1]))
 
 
 def cap(area: float, radius: float) -> tuple[float, float]:

@@ -18,6 +18,8 @@ FieldName = Literal[
     "worn_depth",
     "lower_worn_depth",
     "upper_worn_depth",
+    "debris",
+    "friction_work",
     "friction",
 ]
 FIELD_NAMES: tuple[str, ...] = get_args(FieldName)

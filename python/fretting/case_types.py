@@ -136,6 +136,23 @@ class Cylinder(TypedDict):
     """
 
 
+class Debris(TypedDict):
+    """
+    Debris between the surfaces: a layer that fills the gap, in each cell as thick as what has stayed there. It lies in the frame of the lower
+    body.
+    """
+
+    fraction: float
+    """
+    Fraction of what wears off both bodies that stays between them, with its volume.
+    """
+    outflow_length: NotRequired[float]
+    """
+    Slip distance in which all but 1/e of the debris of a cell flows out over the rim of the contact [length]: its thickness falls by thickness x
+    slip distance / `outflow_length`. Default: none flows out.
+    """
+
+
 Depths: TypeAlias = Sequence[float] | Auto
 
 
@@ -314,7 +331,7 @@ class Output(TypedDict):
     """
     fields: NotRequired[Sequence[str]]
     """
-    Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`" (of bodies that move against each other also of each),
+    Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`" (of bodies that move against each other also of each), "debris",
     "friction". Default: pressure, shear, slip, zone.
     """
 
@@ -454,6 +471,25 @@ class Rig(TypedDict):
     """
     Tangential stiffness of the machine [force/length], along x and y or in both directions alike: actuator = shift + tangential
     force / stiffness. Default: rigid.
+    """
+
+
+class Rim(TypedDict):
+    """
+    Wear by the distance from the rim of the contact to which air has access; a pocket inside of the contact has none.
+    """
+
+    interior: float
+    """
+    Wear coefficient farther inside, over that at the rim.
+    """
+    upper_interior: NotRequired[float]
+    """
+    The same of the upper body, with `kinematics.displacement` = "finite". Default: `interior`.
+    """
+    width: float
+    """
+    Distance from the rim within which the surfaces wear by their wear coefficient [length].
     """
 
 
@@ -1035,6 +1071,10 @@ class Wear(TypedDict):
     Wear coefficient k [1/pressure] of both bodies together: wear depth = k (pressure x slip distance) (Archard), or k (shear . slip)
     (energy). Instead: `wear_coefficient` of the layers, substrates and rigid bodies that wear.
     """
+    debris: NotRequired[Debris]
+    """
+    Debris that stays between the surfaces. Default: all that wears off is gone.
+    """
     every: NotRequired[int]
     """
     Maximum cycle jump: number of cycles one simulated cycle may represent. Default: 1; with `tolerance` 1000000.
@@ -1050,6 +1090,10 @@ class Wear(TypedDict):
     limit: NotRequired[float]
     """
     Stop when the wear depth reaches this value [length].
+    """
+    rim: NotRequired[Rim]
+    """
+    Another wear coefficient far from the rim of the contact. Default: the same everywhere.
     """
     thinning_tolerance: NotRequired[float]
     """

@@ -44,7 +44,8 @@ class History:
         ``actuator_x``, ``actuator_y``, ``actuator_approach``, ``friction_coefficient`` (mean over the contact, weighted
         with the pressure), ``elastic_energy``, ``external_work``, ``wear_work``, ``unresolved_energy``, ``roll_x``,
         ``roll_y``, ``creepage_x``, ``creepage_y``, ``spin``, ``rolling_friction`` (the last four by
-        distance rolled), ``mean_gap`` (NaN where surfaces do not repeat) (float); ``regime`` (str).
+        distance rolled), ``debris_volume``, ``debris_outflow`` (since the start), ``max_debris``, ``mean_gap`` (NaN
+        where surfaces do not repeat) (float); ``regime`` (str).
     x, y : ndarray
         Coordinates of the cell centres [length], shapes (nx,) and (ny,); of a line contact `y` is one zero.
     stages : list of str
@@ -57,8 +58,9 @@ class History:
         ``worn_volume`` (since the start), ``max_worn_depth``, and of the loop at the actuator of a rig
         ``actuator_amplitude``, ``actuator_energy_ratio``, ``actuator_sliding_ratio``, ``actuator_stiffness``,
         ``friction_coefficient`` (mean), and where friction evolves ``friction_change``, ``jump_error``; of layers that
-        wear ``lower_worn_depth``, ``upper_worn_depth``, ``compliance_spread``, ``wear_jump_error`` (float,
-        NaN where a cycle has none); ``steady`` (bool); ``drive``, ``regime`` (str).
+        wear ``lower_worn_depth``, ``upper_worn_depth``, ``compliance_spread``, ``wear_jump_error``, of debris
+        ``debris_volume``, ``debris_outflow`` (float, NaN where a cycle has none); ``steady`` (bool); ``drive``,
+        ``regime`` (str).
     running_conditions : list of str or None
         ``"partial"``, ``"mixed"`` or ``"gross"`` for each stage; None for one without cycles.
     worn_through : dict or None
@@ -198,9 +200,11 @@ class History:
         ----------
         name : str
             ``"pressure"``, ``"shear_x"``, ``"shear_y"``, ``"slip_x"``, ``"slip_y"``, ``"gap"``, ``"zone"``,
-            ``"worn_depth"``, ``"lower_worn_depth"``, ``"upper_worn_depth"``, ``"friction"``, ``"shear"`` or ``"slip"``.
+            ``"worn_depth"``, ``"lower_worn_depth"``, ``"upper_worn_depth"``, ``"debris"``,
+            ``"friction_work"``, ``"friction"``, ``"shear"`` or ``"slip"``.
             ``lower_worn_depth``, ``upper_worn_depth``: of each body in its own frame, kept with ``worn_depth`` where
-            ``kinematics.displacement = "finite"``.
+            ``kinematics.displacement = "finite"``; ``debris``: its thickness, of a case with ``wear.debris``;
+            ``friction_work``: energy dissipated in the increment by area.
             ``slip_x``, ``slip_y``: relative slip since the start of the history, signed (the sum of the slip
             increments, not the slip distance); ``zone``: 0 open, 1 stick, 2 slip; ``shear``, ``slip``: both
             components, along the first axis.

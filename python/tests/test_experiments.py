@@ -17,6 +17,7 @@ from fretting import analytic
 ROOT = Path(__file__).resolve().parents[2]
 QUOTED = json.loads((ROOT / "tests" / "golden" / "experiments" / "quoted.json").read_text(encoding="utf-8"))
 PAGE = json.loads((ROOT / "docs" / "data" / "experiments.json").read_text(encoding="utf-8"))
+MOVING = json.loads((ROOT / "docs" / "data" / "moving_scars.json").read_text(encoding="utf-8"))
 pytestmark = pytest.mark.filterwarnings("ignore::fretting.FrettingWarning")
 
 
@@ -97,6 +98,22 @@ def test_the_scar_of_a_cylinder_is_as_deep_and_narrow_as_the_page_says(scars: An
     assert np.sqrt(np.mean((seen - np.interp(place, x, depth))[inside] ** 2)) < 0.35  # um; the roughness is 0.2
 
 
+def test_with_surfaces_that_move_the_scar_is_that_of_finite_elements_whose_surfaces_move(scars: Any) -> None:
+    x, depth = scars.mccoll_scar(scars.mccoll(80, jump=100, displacement="finite"))
+    element, worn = scars.columns("finite_elements")
+    # nine points of another discretisation, read from a figure: asked for are 3, 6 and 5 %
+    assert depth.max() == pytest.approx(worn.max(), rel=0.01)
+    half_width = np.interp(-0.1 * worn.max(), -worn, element)
+    assert scars.width(x, depth) == pytest.approx(half_width, rel=0.01)
+    area = depth.sum() * (x[1] - x[0])
+    assert area == pytest.approx(2 * np.trapezoid(worn, element), rel=0.025)  # the table ends before the scar does
+    assert depth.max() == pytest.approx(MOVING["mccoll"]["computed"]["depth"], rel=2e-3)  # the page has 160 cells
+    place, seen = scars.measured_scar()
+    middle = seen[np.abs(place) < 0.06].mean()
+    assert -0.03 < depth.max() / middle - 1 < 0  # what motion leaves of the difference
+    assert -0.14 < scars.width(x, depth) / scars.width(place, seen) - 1 < -0.1
+
+
 @pytest.mark.long
 def test_the_scar_of_the_page_comes_out(scars: Any) -> None:
     x, depth = scars.mccoll_scar(scars.mccoll(320))
@@ -129,6 +146,60 @@ def test_a_ball_that_flattens_in_its_scar_stays_shallower_than_a_cap(scars: Any)
     # d = a^2/2R - 0.727 P/(pi a E*); it is not even yet
     assert before < depth < 1.33
     assert depth == pytest.approx(PAGE["fouvry_2007"]["computed"], rel=0.03)  # 32 cells, jumps of a twentieth
+
+
+def test_a_ball_that_flattens_and_moves_is_as_deep_as_measured_before_the_coating_spalled(scars: Any) -> None:
+    of = QUOTED["fouvry_2007"]
+    volume = of["largest_volume_um3"] * 1e-9
+    for row in MOVING["fouvry_2007"]:
+        history = scars.ball_on_coating(32, volume, 0.04, 1e-3 * row["stroke"], "finite")
+        assert history.cycles["worn_volume"][-1] == pytest.approx(volume, rel=0.01)  # its cycles are whole numbers
+        assert history.field("upper_worn_depth").max() == 0.0  # the ball does not wear
+        depth = 1e3 * history.field("lower_worn_depth").max()
+        # rigid bodies leave a groove that is deeper: elastic ones need not lose all of it
+        assert depth < 1e3 * scars.ball_depth(volume, 12.7, 1e-3 * row["stroke"])
+        assert depth == pytest.approx(row["depth"], rel=0.01)  # 32 cells and longer jumps; the page has 64
+        assert depth == pytest.approx(of["depths_um"]["before_spalling"], rel=0.08)
+
+
+def test_debris_leaves_titanium_as_deep_a_scar_as_measured(scars: Any) -> None:
+    scar = next(row for row in QUOTED["arnaud_2021"]["scars"] if row["shape"] == "U")
+    history = scars.titanium_with_debris(96)
+    place, worn, debris = history.x, history.field("worn_depth"), history.field("debris")
+    dx = place[1] - place[0]
+    half = scars.width(place, worn, 0.01)
+    assert half == pytest.approx(scar["half_width_mm"], abs=0.1)  # to which the fraction is fitted, to reading error
+    assert worn.max() / scar["deepest_mm"] - 1 == pytest.approx(0.13, abs=0.02)  # as the page says
+    assert worn.sum() * dx / scar["area_mm2"] - 1 == pytest.approx(0.23, abs=0.02)
+    assert debris.sum() == pytest.approx(scars.FRACTION * worn.sum(), rel=1e-9)  # none flows out
+    # what is open is the cap of two bodies that touch, but for what they give: 2 P/(pi E*) under a pressure as peaked
+    # as Hertz's, ln 2 times that under an even one
+    modulus = analytic.effective_moduli(upper=scars.TITANIUM, lower=scars.TITANIUM).normal
+    elastic = 2 * 1066 / (np.pi * modulus)
+    inside = np.abs(place) < 0.9 * half
+    opened = (worn - debris)[inside] + place[inside] ** 2 / 160
+    assert np.ptp(opened) < elastic
+    assert worn.max() > 7 * half**2 / 160  # many times what these alone could have left
+
+
+def test_a_rim_leaves_a_scar_that_is_deepest_beside_its_middle_and_its_middle_is_missed(scars: Any) -> None:
+    scar = next(row for row in QUOTED["arnaud_2021"]["scars"] if row["shape"] == "W")
+    history = scars.titanium_with_debris(96, scars.RIM)
+    place, worn = history.x, history.field("worn_depth")
+    middle, deepest = worn[len(place) // 2], place[worn.argmax()]
+    assert worn.max() == pytest.approx(scar["deepest_mm"], rel=0.05)  # to which the rim is fitted
+    assert abs(deepest) == pytest.approx(scar["deepest_at_mm"], abs=0.35)
+    assert worn.max() / middle > scar["deepest_mm"] / scar["middle_mm"] > 1
+    assert middle / scar["middle_mm"] - 1 == pytest.approx(-0.41, abs=0.03)  # as the page says
+    assert scars.width(place, worn, 0.01) / scar["half_width_mm"] - 1 == pytest.approx(-0.11, abs=0.03)
+
+
+def test_the_wear_by_energy_of_the_model_is_that_of_the_printed_volumes(scars: Any) -> None:
+    test = next(t for t in QUOTED["fouvry_2017"]["tests"] if t.get("frequency_Hz") == 0.05)
+    assert scars.ALPHA["rim"] == pytest.approx(test["volume_mm3"] / test["energy_J"], rel=0.03)
+    for place, alpha in scars.ALPHA.items():
+        both = QUOTED["arnaud_2021"]["wear_mm3_per_J"][place]
+        assert alpha == pytest.approx(0.5 * (both["flat"] + both["cylinder"]), rel=1e-12)
 
 
 @pytest.mark.parametrize("shape", ["U", "W"])

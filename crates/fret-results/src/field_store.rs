@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 use fret_core::case::Units;
 use fret_core::history::{FIELDS, Field, FieldValues, KeptFields, ZONE_WORDS};
-use fret_core::model::{SurfaceGrid, Zone};
+use fret_core::model::{ContactState, SurfaceGrid, Zone};
 use fret_core::plan::Plan;
 use ndarray::Array2;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
@@ -33,6 +33,8 @@ pub struct FieldStore {
     arrays: Vec<&'static Field>,
     /// Whether anything wears: the wear depth is kept then alone, also where it was asked for.
     wears: bool,
+    /// The same of debris.
+    has_debris: bool,
     /// Whether chunks end with a checksum.
     is_checked: bool,
     /// Numbers of the increments along `increment`.
@@ -119,7 +121,12 @@ impl FieldStore {
 
     /// The arrays that hold fields.
     fn filled(&self) -> impl Iterator<Item = &'static Field> + '_ {
-        self.arrays.iter().copied().filter(|array| array.asked_as != "worn_depth" || self.wears)
+        let is_filled = |array: &&Field| match array.asked_as {
+            "worn_depth" => self.wears,
+            "debris" => self.has_debris,
+            _ => true,
+        };
+        self.arrays.iter().copied().filter(is_filled)
     }
 
     /// Steps whose fields have been kept.
@@ -140,14 +147,18 @@ impl FieldStore {
         let is_plain = first.is_some_and(|(file, name)| {
             fs::metadata(file).is_ok_and(|facts| facts.len() == bytes_of(&plan.grid, name) as u64)
         });
+        let starts_with = |has: fn(&ContactState) -> bool| {
+            plan.start.as_ref().is_some_and(|start| has(&start.solved.state))
+        };
         Self {
             path: path.to_owned(),
             title: plan.case.title.clone(),
             units: plan.case.units.clone(),
             grid: plan.grid,
             arrays,
-            wears: plan.case.wear.is_some()
-                || plan.start.as_ref().is_some_and(|start| start.solved.state.worn_depth.is_some()),
+            wears: plan.case.wear.is_some() || starts_with(|state| state.worn_depth.is_some()),
+            has_debris: plan.case.wear.as_ref().is_some_and(|wear| wear.debris.is_some())
+                || starts_with(|state| state.debris.is_some()),
             is_checked: !is_plain,
             steps: if grows { grown } else { plan.case.kept_increments() },
             kept: 0,

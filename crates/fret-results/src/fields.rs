@@ -53,9 +53,14 @@ impl Fields {
     /// When it is not what that run has written.
     pub fn read(path: &Path, record: &Record, rows: usize) -> Result<Self, ResultsError> {
         let (case, grid) = (&record.plan.case, record.plan.grid);
-        // Where nothing wears the wear depth is not kept, also where it was asked for.
+        // Where nothing wears the wear depth is not kept, also where it was asked for; nor debris where none stays.
         let is_filled = |name: &str| {
-            name != "worn_depth" || case.wear.is_some() || path.join(name).join("c").exists() // of the wear that it started from
+            let is_kept = match name {
+                "worn_depth" => case.wear.is_some(),
+                "debris" => case.wear.as_ref().is_some_and(|wear| wear.debris.is_some()),
+                _ => true,
+            };
+            is_kept || path.join(name).join("c").exists() // of what it started from
         };
         let is_asked = |field: &&history::Field| {
             let moves = case.kinematics.is_finite();

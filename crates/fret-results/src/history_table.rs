@@ -238,6 +238,8 @@ mod tests {
             upper_worn_depth: None,
             compliance_spread: Some(0.125),
             wear_jump_error: None,
+            debris_volume: None,
+            debris_outflow: Some(0.25),
         };
         let other = CycleRecord { regime: None, steady: false, ..one.clone() };
         let names: Vec<&str> = CYCLE_COLUMNS.iter().map(|column| column.name).collect();

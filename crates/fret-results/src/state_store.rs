@@ -15,7 +15,7 @@ use crate::place::folder_below;
 use crate::run_record::Record;
 use crate::tally::Tally;
 
-const FIRST_LINE: &str = "fretting state 4\n";
+const FIRST_LINE: &str = "fretting state 5\n";
 
 /// The states while a run goes.
 #[derive(Debug)]

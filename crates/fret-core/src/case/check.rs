@@ -100,7 +100,8 @@ pub(super) fn case(
     let kinematics = kinematics(&mut judge, &Concerned { file: &file, loading });
     rolling(&mut judge, &file, loading, (kinematics, profile.as_ref(), laws.as_deref()));
     let wears = (file.wear.as_ref(), file.stress.as_ref(), kinematics);
-    let wear = wear(&mut judge, wears, (bodies.as_ref(), files), stages.as_deref(), frictionless);
+    let surfaces = (frictionless, periodic);
+    let wear = wear(&mut judge, wears, (bodies.as_ref(), files), stages.as_deref(), surfaces);
     let output = output(&mut judge, file.output.as_ref());
     let stress = stress(&mut judge, file.stress.as_ref(), bodies.as_ref(), output.as_ref(), frictionless);
     let conduction = conduction(

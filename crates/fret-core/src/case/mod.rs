@@ -46,6 +46,7 @@ mod substrates;
 mod surface_file;
 mod table;
 mod table_layout;
+mod third_body;
 mod topography;
 mod units;
 mod wearing;

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 /// Fields that can be kept, by the names of the case file.
-pub const FIELD_NAMES: [&str; 7] = ["pressure", "shear", "slip", "gap", "zone", "worn_depth", "friction"];
+pub const FIELD_NAMES: [&str; 9] =
+    ["pressure", "shear", "slip", "gap", "zone", "worn_depth", "debris", "friction_work", "friction"];
 
 /// What of the solution is kept.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]

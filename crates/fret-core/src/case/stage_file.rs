@@ -136,6 +136,42 @@ pub(super) struct WearFile {
     /// changed by this fraction. Needs `wear_coefficient` of the layers. Default: the response stays that of the unworn bodies.
     #[range(THINNING)]
     pub thinning_tolerance: Option<At<f64>>,
+    /// Debris that stays between the surfaces. Default: all that wears off is gone.
+    pub debris: Option<At<DebrisFile>>,
+    /// Another wear coefficient far from the rim of the contact. Default: the same everywhere.
+    pub rim: Option<At<RimFile>>,
+}
+
+/// Part of a volume.
+const FRACTION: Range = Range::between(0.0, 1.0, "must lie between 0 and 1");
+
+/// Debris between the surfaces: a layer that fills the gap, in each cell as thick as what has stayed there. It lies in the frame of the lower
+/// body.
+#[derive(Table, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct DebrisFile {
+    /// Fraction of what wears off both bodies that stays between them, with its volume.
+    #[range(FRACTION)]
+    pub fraction: f64,
+    /// Slip distance in which all but 1/e of the debris of a cell flows out over the rim of the contact [length]: its thickness falls by thickness x
+    /// slip distance / `outflow_length`. Default: none flows out.
+    #[range(LENGTH)]
+    pub outflow_length: Option<f64>,
+}
+
+/// Wear by the distance from the rim of the contact to which air has access; a pocket inside of the contact has none.
+#[derive(Table, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct RimFile {
+    /// Distance from the rim within which the surfaces wear by their wear coefficient [length].
+    #[range(LENGTH)]
+    pub width: f64,
+    /// Wear coefficient farther inside, over that at the rim.
+    #[range(Range::NOT_NEGATIVE)]
+    pub interior: f64,
+    /// The same of the upper body, with `kinematics.displacement` = "finite". Default: `interior`.
+    #[range(Range::NOT_NEGATIVE)]
+    pub upper_interior: Option<At<f64>>,
 }
 
 /// One of the bodies.

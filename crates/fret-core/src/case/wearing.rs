@@ -5,6 +5,7 @@ use super::file::StressFile;
 use super::judge::Judge;
 use super::parts::{Constant, NamedBody};
 use super::stage_file::{WearFile, WornBodyFile};
+use super::third_body::third_body;
 use crate::document::At;
 use crate::model::stage::Stage;
 use crate::model::{Body, ContactPair, Kinematics, OwnDepths, WearLaw, WearLayers, WearRule, WornLayer};
@@ -12,13 +13,13 @@ use crate::model::{Body, ContactPair, Kinematics, OwnDepths, WearLaw, WearLayers
 /// Cycles a computed one may stand for.
 pub(super) const MOST_EVERY: usize = 1_000_000;
 
-/// The wear of a case; `None` when nothing wears or it was refused.
+/// The wear of a case, whose surfaces move or not and repeat or not; `None` when nothing wears or it was refused.
 pub(super) fn wear(
     judge: &mut Judge,
     (given, stress, kinematics): (Option<&At<WearFile>>, Option<&At<StressFile>>, Kinematics),
     (bodies, files): (Option<&ContactPair>, [NamedBody<'_>; 2]),
     stages: Option<&[Stage]>,
-    frictionless: bool,
+    (frictionless, repeats): (bool, bool),
 ) -> Option<WearRule> {
     let before = judge.mistakes.len();
     let layers = files.map(|body| {
@@ -77,6 +78,7 @@ pub(super) fn wear(
     changing_cycles(judge, jumping, ("wear", "that wears"), every, stages.unwrap_or_default());
     let layers = own.is_some().then(|| WearLayers::new(layers.map(Option::unwrap_or_default)));
     let limit = limit(judge, file, (bodies, files), layers.as_ref());
+    let (debris, rim) = third_body(judge, file, (kinematics, repeats), layers.as_ref());
     let own = kinematics.is_finite().then(|| [0, 1].map(|body| own_depths(body, file, files, limit)));
     // where the bodies were refused, a thickness may be no number
     let coating = bodies.and_then(|_| coating_gone(files, layers.as_ref()));
@@ -91,6 +93,8 @@ pub(super) fn wear(
         tolerance: file.tolerance,
         thinning_tolerance: thinning,
         own,
+        debris,
+        rim,
     })
 }
 

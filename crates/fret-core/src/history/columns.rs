@@ -242,6 +242,14 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
         FORCE,
         |step| step.rolling_friction.unwrap_or(0.0),
     ),
+    real("debris_volume", "debris between the surfaces, with wear.debris", VOLUME, |step| step.debris.volume),
+    real(
+        "debris_outflow",
+        "debris that has flowed out of the contact since the start, including the cycles represented by cycle jumps",
+        VOLUME,
+        |step| step.debris.outflow,
+    ),
+    real("max_debris", "maximum thickness of the debris", LENGTH, |step| step.debris.max_thickness),
     real_or_none("mean_gap", "mean gap between surfaces that repeat", LENGTH, |step| step.mean_gap),
 ];
 

@@ -96,6 +96,10 @@ pub struct CycleRecord {
     /// Estimated error of the wear depth by the cycle jump before this cycle, relative to the depth of that jump [-]; with
     /// `wear.tolerance`.
     pub wear_jump_error: Option<f64>,
+    /// Debris between the surfaces after the cycles it stands for [length^3]; of cases in which some stays, as the next.
+    pub debris_volume: Option<f64>,
+    /// Debris that has flowed out over the rim of the contact since the start of the history [length^3].
+    pub debris_outflow: Option<f64>,
     /// Half of the range of the actuator's displacement along the direction of the force [length]; of a case with a machine that
     /// gives and a cycle driven tangentially, as what follows.
     pub actuator_amplitude: Option<f64>,

@@ -107,9 +107,21 @@ pub static CYCLE_COLUMNS: &[Column<CycleRecord>] = &[
     ),
     real_or_none(
         "wear_jump_error",
-        "with wear.tolerance: estimated relative error of the wear depth by the cycle jump before this cycle",
+        "with wear.tolerance: estimated relative error of the wear depth, or of the debris, by the cycle jump before this cycle",
         RATIO,
         |cycle| cycle.wear_jump_error,
+    ),
+    real_or_none(
+        "debris_volume",
+        "with wear.debris: debris between the surfaces after the cycle",
+        VOLUME,
+        |cycle| cycle.debris_volume,
+    ),
+    real_or_none(
+        "debris_outflow",
+        "with wear.debris: debris that has flowed out of the contact since the start of the history",
+        VOLUME,
+        |cycle| cycle.debris_outflow,
     ),
 ];
 
@@ -156,6 +168,7 @@ mod tests {
             "actuator_energy_ratio": 20.5, "actuator_sliding_ratio": 21.5, "actuator_stiffness": 22.5,
             "friction_coefficient": 23.5, "friction_change": 24.5, "jump_error": 25.5, "lower_worn_depth": 26.5,
             "upper_worn_depth": 27.5, "compliance_spread": 28.5, "wear_jump_error": 29.5,
+            "debris_volume": 30.5, "debris_outflow": 31.5,
         });
         serde_json::from_value(all).unwrap()
     }

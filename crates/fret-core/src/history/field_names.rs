@@ -104,6 +104,20 @@ pub static FIELDS: &[Field] = &[
         values: |kept| kept.own_worn_depth.as_ref().map(|[_, upper]| Reals(upper)),
     },
     Field {
+        name: "debris",
+        asked_as: "debris",
+        meaning: "thickness of the debris between the surfaces, in the frame of the lower body",
+        unit: "length",
+        values: |kept| kept.debris.as_ref().map(Reals),
+    },
+    Field {
+        name: "friction_work",
+        asked_as: "friction_work",
+        meaning: "energy that friction dissipates in the increment by area: friction bound times slip distance",
+        unit: "pressure x length",
+        values: |kept| kept.friction_work.as_ref().map(Reals),
+    },
+    Field {
         name: "friction",
         asked_as: "friction",
         meaning: "coefficient of friction",

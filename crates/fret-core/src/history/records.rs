@@ -10,6 +10,17 @@ use super::warning::Warning;
 use crate::model::{ContactPair, ContactState, SolvedState, SurfaceGrid, WearLayers, Zone};
 use crate::solver::{Regime, Residual, Work, worst};
 
+/// Debris between the surfaces of the whole contact; nothing where none stays.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct DebrisRecord {
+    /// What lies between them [length^3].
+    pub volume: f64,
+    /// What has flowed out over the rim of the contact since the start, by all cycles that computed ones stand for [length^3].
+    pub outflow: f64,
+    /// Largest thickness [length].
+    pub max_thickness: f64,
+}
+
 /// One increment of the history. Units are those of the case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StepRecord {
@@ -77,6 +88,9 @@ pub struct StepRecord {
     pub worn_volume: f64,
     /// Largest worn depth [length].
     pub max_worn_depth: f64,
+    /// Debris between the surfaces.
+    #[serde(default)]
+    pub debris: DebrisRecord,
     /// Mean coefficient of friction over the contact, weighted with the pressure [-].
     pub friction_coefficient: f64,
     /// Distance that the contact has rolled along x and y [length].
@@ -112,10 +126,14 @@ pub struct KeptFields {
     pub gap: Option<Array2<f64>>,
     /// Zone of each cell.
     pub zone: Option<Array2<Zone>>,
+    /// What friction dissipated in the increment by area [pressure x length].
+    pub friction_work: Option<Array2<f64>>,
     /// Worn depth, of both bodies together [length].
     pub worn_depth: Option<Array2<f64>>,
     /// That of the lower and of the upper body, each in its own frame, where they move against each other [length].
     pub own_worn_depth: Option<[Array2<f64>; 2]>,
+    /// Thickness of the debris between the surfaces [length], in the frame of the lower body.
+    pub debris: Option<Array2<f64>>,
     /// Coefficient of friction in force [-].
     pub friction: Option<Array2<f64>>,
     /// What another history needs besides these fields to start here; of every last increment of a stage, and where the fields

@@ -38,6 +38,7 @@ impl Symmetry {
             zone: self.part(&whole.zone),
             worn_depth: whole.worn_depth.as_ref().map(|depth| self.part(depth)),
             upper_worn_depth: whole.upper_worn_depth.as_ref().map(|depth| self.part(depth)),
+            debris: whole.debris.as_ref().map(|thickness| self.part(thickness)),
             accumulated: whole.accumulated.as_ref().map(|slip| slip.with_fields(|field| self.part(field))),
             ..*whole
         }
@@ -73,6 +74,7 @@ fn made_whole(part: &ContactState, symmetry: Symmetry) -> ContactState {
         zone: symmetry.whole_zones(&part.zone),
         worn_depth: part.worn_depth.as_ref().map(even),
         upper_worn_depth: part.upper_worn_depth.as_ref().map(even),
+        debris: part.debris.as_ref().map(even),
         accumulated: part.accumulated.as_ref().map(|slip| slip.with_fields(even)),
         ..*part
     }
@@ -101,6 +103,7 @@ mod tests {
                 zone: Array2::from_shape_fn(cells, |(i, j)| if i < j { Zone::Slip } else { Zone::Stick }),
                 worn_depth: Some(field(600.0)),
                 upper_worn_depth: Some(field(650.0)),
+                debris: Some(field(670.0)),
                 accumulated: Some(AccumulatedSlip { distance: field(700.0), ..AccumulatedSlip::none(cells) }),
                 dissipated_energy: 8.0,
                 bulk_work: -3.0,

@@ -53,5 +53,5 @@ pub use shape::{Axis, ProfileError, Shape};
 pub use state::{ContactState, SolvedState, Zone};
 pub use symmetry::Symmetry;
 pub use treatment::Treatment;
-pub use wear::{OwnDepths, WearLaw, WearRule};
+pub use wear::{DebrisRule, OwnDepths, RimRule, WearLaw, WearRule};
 pub use wear_layers::{WearLayers, Worn, WornLayer, thinned};

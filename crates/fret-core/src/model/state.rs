@@ -56,6 +56,9 @@ pub struct ContactState {
     /// the lower one, or nothing wears.
     #[serde(with = "stored")]
     pub upper_worn_depth: Option<Array2<f64>>,
+    /// Thickness of the debris between the surfaces [length], in the frame of the lower body; `None` where none stays.
+    #[serde(with = "stored")]
+    pub debris: Option<Array2<f64>>,
     /// What slip has done to each cell since the start; `None` where nothing follows it.
     pub accumulated: Option<AccumulatedSlip>,
     /// Rigid normal approach [length].
@@ -89,6 +92,9 @@ pub struct ContactState {
     /// Work that the bulk stresses have done on the contact since the start [force x length]: minus the mean shear times the change of
     /// the relative displacement by the strains; with wear that of all cycles that computed ones stand for.
     pub bulk_work: f64,
+    /// Debris that has flowed out over the rim of the contact since the start [length^3], by all cycles that computed ones stand for.
+    #[serde(default)]
+    pub debris_outflow: f64,
 }
 
 impl ContactState {
@@ -103,6 +109,7 @@ impl ContactState {
             zone: Array2::from_elem(cells, Zone::Open),
             worn_depth: None,
             upper_worn_depth: None,
+            debris: None,
             accumulated: None,
             approach: 0.0,
             shift: [0.0; 2],
@@ -116,6 +123,7 @@ impl ContactState {
             wear_work: 0.0,
             unresolved_energy: 0.0,
             bulk_work: 0.0,
+            debris_outflow: 0.0,
         }
     }
 
@@ -136,8 +144,19 @@ impl ContactState {
             zone,
             worn_depth: self.worn_depth.clone(),
             upper_worn_depth: self.upper_worn_depth.clone(),
+            debris: self.debris.clone(),
             accumulated: self.accumulated.clone(),
             ..*self
+        }
+    }
+
+    /// Opens a gap by what is worn in the frame of the lower body, and fills it with the debris there.
+    pub fn open(&self, gap: &mut Array2<f64>) {
+        if let Some(worn) = &self.worn_depth {
+            *gap += worn;
+        }
+        if let Some(debris) = &self.debris {
+            *gap -= debris;
         }
     }
 
@@ -155,6 +174,7 @@ impl ContactState {
             zone: self.zone.clone(),
             worn_depth: self.worn_depth.clone(),
             upper_worn_depth: self.upper_worn_depth.clone(),
+            debris: self.debris.clone(),
             accumulated: self.accumulated.clone(),
             ..*self
         }
@@ -186,10 +206,11 @@ impl ContactState {
         let motions = [self.approach, self.shift[0], self.shift[1], self.twist, tilt_x, tilt_y];
         let numbers = motions.into_iter().chain(self.bulk_stress.into_iter().flatten()).chain(self.roll);
         let energies = [self.dissipated_energy, self.elastic_energy, self.external_work, self.wear_work];
-        let mut numbers = numbers.chain(energies).chain([self.unresolved_energy, self.bulk_work]);
+        let mut numbers =
+            numbers.chain(energies).chain([self.unresolved_energy, self.bulk_work, self.debris_outflow]);
         let field = |field: &Array2<f64>| field.dim() == cells.into() && field.iter().all(|v| v.is_finite());
         let accumulated = self.accumulated.iter().flat_map(AccumulatedSlip::fields);
-        let worn = self.worn_depth.iter().chain(&self.upper_worn_depth);
+        let worn = self.worn_depth.iter().chain(&self.upper_worn_depth).chain(&self.debris);
         [&self.pressure, qx, qy, sx, sy].into_iter().chain(worn).chain(accumulated).all(field)
             && self.zone.dim() == cells.into()
             && numbers.all(f64::is_finite)

@@ -28,6 +28,24 @@ pub struct OwnDepths {
     pub coating: Option<f64>,
 }
 
+/// Debris between the surfaces: what wears off stays in part, fills the gap, and flows out over the rim of the contact by sliding.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct DebrisRule {
+    /// Fraction of what both bodies lose that stays between them [-].
+    pub fraction: f64,
+    /// Slip distance over which all but 1/e of the debris of a cell flows out [length]; `None`: nothing does.
+    pub outflow_length: Option<f64>,
+}
+
+/// Wear by the distance from the open rim of the contact.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct RimRule {
+    /// Distance from the rim [length] within which the wear coefficient is that of the case.
+    pub width: f64,
+    /// Wear coefficient farther inside over that of the case [-], of the lower and the upper body.
+    pub interior: [f64; 2],
+}
+
 /// How surfaces wear, and how many cycles a computed one stands for.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WearRule {
@@ -58,6 +76,12 @@ pub struct WearRule {
     /// Depths of the lower and of the upper body alone, where they move against each other: each wears in its own frame, by its own layers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub own: Option<[OwnDepths; 2]>,
+    /// Debris that stays between the surfaces.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub debris: Option<DebrisRule>,
+    /// Another coefficient far from the open rim of the contact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rim: Option<RimRule>,
 }
 
 impl WearRule {
@@ -66,12 +90,14 @@ impl WearRule {
     pub fn of_body(&self, body: usize) -> Self {
         let OwnDepths { limit, coating } = self.own.unwrap_or_default()[body];
         let layers = self.layers.as_ref().map(|layers| layers.of_body(body));
-        Self { layers, limit, coating, ..self.clone() }
+        let rim = self.rim.map(|rim| RimRule { interior: [rim.interior[body]; 2], ..rim });
+        Self { layers, limit, coating, rim, ..self.clone() }
     }
 
     /// The largest coefficient that can be in force, of both bodies together [1/pressure].
     pub fn largest_rate(&self) -> f64 {
         let of_layers = || self.layers.as_ref().map_or(0.0, WearLayers::largest_rate);
-        self.coefficient.unwrap_or_else(of_layers)
+        let inside = self.rim.map_or(0.0, |rim| rim.interior[0].max(rim.interior[1]));
+        self.coefficient.unwrap_or_else(of_layers) * inside.max(1.0)
     }
 }

@@ -216,7 +216,7 @@ fn is_the_same_along_a_line(state: &ContactState) -> bool {
     let [shear_x, shear_y] = &state.shear;
     let accumulated = || state.accumulated.iter().flat_map(AccumulatedSlip::fields);
     let fields = || {
-        let worn = state.worn_depth.iter().chain(&state.upper_worn_depth);
+        let worn = state.worn_depth.iter().chain(&state.upper_worn_depth).chain(&state.debris);
         [&state.pressure, shear_x, shear_y].into_iter().chain(worn).chain(accumulated())
     };
     (0..2).any(|axis| {

@@ -11,6 +11,10 @@ pub const PLANNING: usize = 48;
 
 /// Bytes a cell of the fields that wear collects.
 const WEAR: usize = 50;
+/// Bytes a cell of debris: its thickness in two states and as it was, what is collected of it, what the cycle before made.
+const DEBRIS: usize = 72;
+/// Bytes a cell of what friction dissipates in each: of an increment, and of a part of it.
+const FRICTION_WORK: usize = 16;
 /// Bytes a cell of influence coefficients that are found while those before are in use.
 const THINNING: usize = 48;
 /// Bytes a cell of friction that evolves: what is accumulated in two states, collected in a cycle and kept of the last one, the law twice
@@ -67,6 +71,10 @@ pub fn of_run(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Sym
         None => WEAR,
         Some(_) => WEAR + THINNING,
     });
+    let has_debris = case.wear.as_ref().is_some_and(|wear| wear.debris.is_some());
+    let worn = worn + if has_debris { DEBRIS } else { 0 };
+    let tells_work = case.output.fields.iter().any(|name| name == "friction_work");
+    let worn = worn + if tells_work { FRICTION_WORK } else { 0 };
     let evolving = if case.friction_evolution.is_some() { EVOLVING } else { 0 };
     let frictions = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
     let maps = frictions.filter(|friction| friction.is_map()).count() + case.profile.heights.len();

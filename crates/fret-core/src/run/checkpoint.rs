@@ -8,9 +8,11 @@ use postcard::ser_flavors::Flavor;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use super::debris::{CollectedDebris, OneCycle};
 use super::evolving::CollectedSlip;
 use super::fretting_loop::FrettingLoop;
 use super::moving::upper_wear_over_grid;
+use super::surfaces::Underway;
 use super::thinning::mean_depths;
 use super::wear::Collected;
 use crate::case::{Case, Stage};
@@ -20,7 +22,7 @@ use crate::plan::Plan;
 use crate::solver::{Resultants, SolverMemory};
 
 /// Version of the bytes; another layout of what is stored gets another one.
-const FORMAT: u32 = 13;
+const FORMAT: u32 = 14;
 
 /// How far a run has come in its stages.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -56,6 +58,7 @@ pub struct Waypoint<'a> {
     pub(crate) cycle: Option<&'a FrettingLoop>,
     pub(crate) wear: Option<&'a Collected>,
     pub(crate) upper_wear: Option<&'a Collected>,
+    pub(crate) debris: Option<&'a CollectedDebris>,
     pub(crate) slip: Option<&'a CollectedSlip>,
 }
 
@@ -70,6 +73,8 @@ pub struct Checkpoint {
     /// What has worn since the gap was opened last; off the upper body alone, where the bodies move against each other.
     pub(crate) wear: Option<Collected>,
     pub(crate) upper_wear: Option<Collected>,
+    /// What becomes debris of it.
+    pub(crate) debris: Option<CollectedDebris>,
     /// What slip has done since friction changed last.
     pub(crate) slip: Option<CollectedSlip>,
 }
@@ -131,6 +136,7 @@ impl Waypoint<'_> {
             cycle: self.cycle.cloned(),
             wear: self.wear.cloned(),
             upper_wear: self.upper_wear.cloned(),
+            debris: self.debris.cloned(),
             slip: self.slip.cloned(),
         }
     }
@@ -197,12 +203,18 @@ impl Checkpoint {
         });
         let upper_wear = plan.case.wear.as_ref().filter(|_| moves);
         let upper_wear = upper_wear.map(|rule| Collected::nothing(cells, rule.of_body(1).layers));
+        let rule = plan.case.wear.as_ref().and_then(|rule| rule.debris);
+        if rule.is_some() {
+            state.debris.get_or_insert_with(|| Array2::zeros(cells));
+        }
+        let debris = rule.map(|rule| CollectedDebris::nothing(rule, plan.area_of_cell(), (cells, moves)));
         let evolves = plan.case.friction_evolution.is_some();
         if evolves {
             state.accumulated.get_or_insert_with(|| AccumulatedSlip::none(cells));
         }
         let slip = evolves.then(|| CollectedSlip::nothing(cells));
-        Self { place, state, memory: memory.unwrap_or_default(), cycle: None, wear, upper_wear, slip }
+        let memory = memory.unwrap_or_default();
+        Self { place, state, memory, cycle: None, wear, upper_wear, debris, slip }
     }
 
     /// The checkpoint in bytes written by [`Waypoint::write`], for a run of `plan`.
@@ -237,16 +249,26 @@ impl Checkpoint {
     /// # Errors
     /// As [`Checkpoint::read`].
     pub fn start_of(bytes: &[u8], plan: &Value) -> Result<Start, CheckpointError> {
-        let Self { place, state, memory, wear, upper_wear, slip, .. } = Self::decoded(bytes)?;
+        let checkpoint = Self::decoded(bytes)?;
         let symmetry: Symmetry =
             serde_json::from_value(plan["symmetry"].clone()).map_err(|_| CheckpointError::Foreign)?;
-        let worn = [wear.as_ref(), upper_wear.as_ref()];
-        let solved = symmetry.whole_solved(solved_state(&place, state, worn, slip.as_ref()));
+        let underway = checkpoint.underway();
+        let state = checkpoint.state.clone();
+        let solved = symmetry.whole_solved(solved_state(&checkpoint.place, state, underway));
+        let Self { memory, wear, upper_wear, debris, .. } = &checkpoint;
+        let slips = |wear: &Collected| debris.is_some() && wear.path().iter().any(|path| *path != 0.0);
         // What an unfinished cycle has worn opens the gap, and the solver remembers another one; so it does of thinner layers, whose
         // thickness another history finds for itself.
-        let same_gap = wear.is_none_or(|wear| wear.is_empty() && wear.thinned() == [0.0; 2])
-            && upper_wear.is_none_or(|wear| wear.is_empty());
-        Start::new(plan, solved, same_gap.then_some(memory)).ok_or(CheckpointError::Foreign)
+        let same_gap =
+            wear.as_ref().is_none_or(|wear| wear.is_empty() && wear.thinned() == [0.0; 2] && !slips(wear))
+                && upper_wear.as_ref().is_none_or(Collected::is_empty);
+        Start::new(plan, solved, same_gap.then(|| memory.clone())).ok_or(CheckpointError::Foreign)
+    }
+
+    /// What slip has done since the surfaces changed last.
+    pub(crate) fn underway(&self) -> Underway<'_> {
+        let wear = [self.wear.as_ref(), self.upper_wear.as_ref()];
+        Underway { wear, debris: self.debris.as_ref(), slip: self.slip.as_ref() }
     }
 
     fn belongs_to(&self, plan: &Plan) -> bool {
@@ -257,6 +279,8 @@ impl Checkpoint {
         let starts_worn = start.is_some_and(|state| state.worn_depth.is_some());
         let starts_worn_above = start.is_some_and(|state| state.upper_worn_depth.is_some());
         let wears_above = wears && plan.case.kinematics.is_finite();
+        let keeps_debris = plan.case.wear.as_ref().is_some_and(|rule| rule.debris.is_some());
+        let starts_with_debris = start.is_some_and(|state| state.debris.is_some());
         let starts_rubbed = start.is_some_and(|state| state.accumulated.is_some());
         self.is_within(&plan.case)
             && self.state.is_sound(cells)
@@ -265,6 +289,9 @@ impl Checkpoint {
             && self.state.upper_worn_depth.is_some() == (wears_above || starts_worn_above)
             && self.upper_wear.is_some() == wears_above
             && self.upper_wear.as_ref().is_none_or(|wear| wear.fits(cells))
+            && self.state.debris.is_some() == (keeps_debris || starts_with_debris)
+            && self.debris.is_some() == keeps_debris
+            && self.debris.as_ref().is_none_or(|debris| debris.fits(cells, wears_above))
             && self.state.accumulated.is_some() == (evolves || starts_rubbed)
             && self.slip.is_some() == evolves
             && self.slip.as_ref().is_none_or(|slip| slip.fits(cells))
@@ -296,10 +323,13 @@ impl Checkpoint {
 pub(crate) fn solved_state(
     place: &Place,
     mut state: ContactState,
-    [wear, upper_wear]: [Option<&Collected>; 2],
-    slip: Option<&CollectedSlip>,
+    Underway { wear: [wear, upper_wear], debris, slip }: Underway<'_>,
 ) -> SolvedState {
     let Resultants { normal, tangential, moment, tilt_moment } = place.resultants;
+    if let (Some(debris), Some(thickness), Some(_)) = (debris, &mut state.debris, wear) {
+        let worn = [state.worn_depth.as_ref(), state.upper_worn_depth.as_ref()];
+        state.debris_outflow += debris.settle_once(thickness, &OneCycle::of([wear, upper_wear], worn));
+    }
     if let (Some(depth), Some(wear)) = (&mut state.worn_depth, wear) {
         wear.take_off(depth);
     }

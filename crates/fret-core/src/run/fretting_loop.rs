@@ -8,7 +8,9 @@ use super::loop_reading::{LoopPoint, LoopReading};
 use super::recording::mean_coefficient;
 use super::thinning::LayersWorn;
 use crate::fields::stored;
-use crate::history::{CycleRecord, CycleRegime, Drive, Regime, SLIDING_ENERGY_RATIO, StepRecord};
+use crate::history::{
+    CycleRecord, CycleRegime, DebrisRecord, Drive, Regime, SLIDING_ENERGY_RATIO, StepRecord,
+};
 use crate::model::{ContactState, CoulombFriction, Rig, Zone};
 use crate::solver::friction_bounds;
 
@@ -80,6 +82,8 @@ pub struct CycleEnd {
     pub tolerance: Option<f64>,
     /// Volume worn off so far, and largest worn depth.
     pub worn: [f64; 2],
+    /// The debris between the surfaces, where some stays.
+    pub debris: Option<DebrisRecord>,
     /// What became of friction, where it evolves.
     pub evolved: Option<Evolved>,
     /// What is known of the layers that wear.
@@ -237,6 +241,8 @@ impl FrettingLoop {
             upper_worn_depth: end.layers.map(|layers| layers.depths[1]),
             compliance_spread: end.layers.and_then(|layers| layers.compliance_spread),
             wear_jump_error: end.wear_jump_error,
+            debris_volume: end.debris.map(|debris| debris.volume),
+            debris_outflow: end.debris.map(|debris| debris.outflow),
             actuator_amplitude: at_actuator.as_ref().map(|far| far.displacement_amplitude),
             actuator_energy_ratio: moving.map(|far| dissipated_energy / (4.0 * far.work_scale())),
             actuator_sliding_ratio: moving.map(|far| far.opening / far.displacement_amplitude),

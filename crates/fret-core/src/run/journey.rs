@@ -6,7 +6,6 @@ use std::time::Instant;
 use ndarray::Array2;
 
 use super::checkpoint::{Place, Waypoint, solved_state};
-use super::evolving::Evolving;
 use super::fretting_loop::{CycleEnd, FrettingLoop, slid};
 use super::moving::{Stepper, upper_wear_over_grid};
 use super::observer::{Iteration, Observer};
@@ -20,7 +19,7 @@ use super::stepping::StageSteps;
 use super::stiffest_wave::StiffestWave;
 use super::surfaces::{Block, Surfaces};
 use super::thinning::{LayersWorn, bodies_left, due, layers_worn};
-use super::wear::worn;
+use super::wear::{debris, worn};
 use crate::case::{Case, Stage};
 use crate::history::{CycleRecord, History, KeptFields, StepRecord, WornThrough, WornTo};
 use crate::kernel::uniform_response;
@@ -84,8 +83,11 @@ impl<'a> Journey<'a> {
     fn ended(self) -> History {
         let Self { plan, solver, surfaces, state, records, gauge, place, .. } = self;
         drop(solver); // room for the whole state
-        let collected = (surfaces.worn(), surfaces.evolving.as_ref().map(Evolving::collected));
-        Records { warnings: gauge.warnings(plan), ..records }.history(plan, (&place, state), collected)
+        Records { warnings: gauge.warnings(plan), ..records }.history(
+            plan,
+            (&place, state),
+            surfaces.underway(),
+        )
     }
 
     /// Solves what is left of the stage at work.
@@ -134,6 +136,7 @@ impl<'a> Journey<'a> {
         record.external_work = self.state.external_work;
         record.unresolved_energy = self.state.unresolved_energy;
         [record.worn_volume, record.max_worn_depth] = worn(&self.state, self.plan);
+        record.debris = debris(&self.state, self.plan);
         let steady = ended.as_ref().is_some_and(|cycle| cycle.steady);
         let enough = stage.cycles().is_some_and(|course| self.place.cycles >= course.most);
         let last = k == all || steady || enough || self.place.worn_out;
@@ -154,6 +157,13 @@ impl<'a> Journey<'a> {
             if let Some(upper) = &self.state.upper_worn_depth {
                 kept.own_worn_depth = Some([whole(depth)?, whole(upper)?]);
             }
+        }
+        if let (Some(kept), Some(thickness)) = (&mut kept, &self.state.debris)
+            && self.case().output.fields.iter().any(|name| name == "debris")
+        {
+            let increment = record.increment;
+            let found = whole(thickness, [false; 2], self.plan.symmetry);
+            kept.debris = Some(found.map_err(|error| RunError::OutOfMemory { increment, error })?);
         }
         self.place.solved += 1;
         self.place.solved_of_stage = k;
@@ -177,14 +187,16 @@ impl<'a> Journey<'a> {
             self.place.solved_of_stage = 0;
             self.cycle = None;
         }
+        let underway = self.surfaces.underway();
         let stored = self.observer.reached(&Waypoint {
             place: &self.place,
             state: &self.state,
             memory: self.solver.memory(),
             cycle: self.cycle.as_ref(),
-            wear: self.surfaces.worn()[0],
-            upper_wear: self.surfaces.worn()[1],
-            slip: self.surfaces.evolving.as_ref().map(Evolving::collected),
+            wear: underway.wear[0],
+            upper_wear: underway.wear[1],
+            debris: underway.debris,
+            slip: underway.slip,
         });
         if heard.is_break() || stored.is_break() {
             return Err(RunError::Interrupted { increment: self.place.solved });
@@ -199,8 +211,7 @@ impl<'a> Journey<'a> {
         if !ends && !self.state.is_zero_beside(is_kept) {
             return None;
         }
-        let slipped = self.surfaces.evolving.as_ref().map(Evolving::collected);
-        let rest = solved_state(&self.place, self.state.beside(is_kept), self.surfaces.worn(), slipped);
+        let rest = solved_state(&self.place, self.state.beside(is_kept), self.surfaces.underway());
         Some(self.plan.symmetry.whole_solved(rest))
     }
 
@@ -306,6 +317,7 @@ impl<'a> Journey<'a> {
             last_cycle: self.place.cycles,
             tolerance: course.until_steady,
             worn: worn(&self.state, self.plan),
+            debris: self.state.debris.is_some().then(|| debris(&self.state, self.plan)),
             evolved,
             layers: self.layers_worn(cycle.contact_area()),
             wear_jump_error: block.wear_jump_error,
@@ -367,10 +379,8 @@ impl<'a> Journey<'a> {
         let block = self.surfaces.end_block(state, (left, of_cycle)).map_err(|too_fast| {
             RunError::WearTooFast { increment, stage: stage.name.clone(), share: too_fast.share }
         })?;
-        if let (true, Some(wearing), Some(depth)) =
-            (block.opened, &self.surfaces.wearing, &self.state.worn_depth)
-        {
-            self.solver.open_gap(|| wearing.gap(depth));
+        if let (true, Some(wearing)) = (block.opened, &self.surfaces.wearing) {
+            self.solver.open_gap(|| wearing.gap(&self.state));
         }
         if block.opened && block.through.is_none() {
             self.thin()?;

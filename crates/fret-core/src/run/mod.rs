@@ -2,6 +2,7 @@
 
 mod beginning;
 mod checkpoint;
+mod debris;
 mod evolving;
 mod fretting_loop;
 mod in_common;
@@ -14,6 +15,7 @@ pub mod plausibility;
 mod recording;
 mod records;
 mod refinement;
+mod rim;
 mod rings;
 mod rolling;
 mod run_error;

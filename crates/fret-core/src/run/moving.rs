@@ -139,9 +139,9 @@ impl Moving {
         let gap = self.profile.gap_with_upper_at(&self.grid, cells, self.repeats);
         let mut gap = if self.symmetry.any() { self.symmetry.part(&gap) } else { gap };
         let outside = if self.repeats { Outside::Repeats } else { Outside::Zero };
-        let upper = state.upper_worn_depth.as_ref().map(|depth| carried(depth, cells, outside));
-        for worn in state.worn_depth.iter().chain(&upper) {
-            gap += worn;
+        state.open(&mut gap);
+        if let Some(upper) = &state.upper_worn_depth {
+            gap += &carried(upper, cells, outside);
         }
         gap
     }

@@ -3,7 +3,7 @@
 use ndarray::Array2;
 
 use crate::fields::{copied, largest};
-use crate::history::{Footprint, KeptFields, Residual, StepRecord};
+use crate::history::{DebrisRecord, Footprint, KeptFields, Residual, StepRecord};
 use crate::machine::memory::MemoryError;
 use crate::model::{CellMap, CellValues, ContactState, CoulombFriction, Rig, Symmetry, Zone};
 use crate::solver::Increment;
@@ -54,6 +54,7 @@ pub fn record(
         unresolved_energy: state.unresolved_energy,
         worn_volume: 0.0,
         max_worn_depth: 0.0,
+        debris: DebrisRecord::default(),
         friction_coefficient: mean_coefficient(friction, &state.pressure),
         roll: state.roll,
         creepage: None,
@@ -107,8 +108,14 @@ pub fn kept(
         slip: two("slip", &state.slip)?,
         gap: one("gap", &solved.gap)?,
         zone: asked("zone").then(|| whole_zones(&state.zone, symmetry)).transpose()?,
+        friction_work: solved
+            .friction_work
+            .as_ref()
+            .and_then(|work| one("friction_work", work).transpose())
+            .transpose()?,
         worn_depth: None,
         own_worn_depth: None,
+        debris: None,
         friction: one("friction", &coefficients)?,
         rest: None,
     })

@@ -1,8 +1,7 @@
 //! What a run has written down so far, and the history that it makes of it in the end.
 
 use super::checkpoint::{Checkpoint, Place, solved_state};
-use super::evolving::CollectedSlip;
-use super::wear::Collected;
+use super::surfaces::Underway;
 use crate::history::{CycleRecord, History, KeptFields, StepRecord, Warning, WornByLayer};
 use crate::model::ContactState;
 use crate::plan::Plan;
@@ -26,11 +25,11 @@ impl Records {
         self,
         plan: &Plan,
         (place, state): (&Place, ContactState),
-        (wear, slip): ([Option<&Collected>; 2], Option<&CollectedSlip>),
+        underway: Underway<'_>,
     ) -> History {
         let case = &plan.case;
         let Self { steps, cycles, fields, warnings } = self;
-        let end = solved_state(place, state.beside(|_| true), wear, slip);
+        let end = solved_state(place, state.beside(|_| true), underway);
         let end = plan.symmetry.whole_solved(end);
         let state = plan.symmetry.whole_state(state);
         let layers = case.wear.as_ref().and_then(|rule| rule.layers.as_ref());
@@ -60,8 +59,6 @@ impl Records {
 impl Checkpoint {
     /// A history that has nothing but its start.
     pub(super) fn history(self, plan: &Plan) -> History {
-        let Self { place, state, wear, upper_wear, slip, .. } = self;
-        let worn = [wear.as_ref(), upper_wear.as_ref()];
-        Records::default().history(plan, (&place, state), (worn, slip.as_ref()))
+        Records::default().history(plan, (&self.place, self.state.clone()), self.underway())
     }
 }

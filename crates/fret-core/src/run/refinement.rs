@@ -75,9 +75,12 @@ fn halved(
     }
 }
 
-/// The second of two steps, with the work of both and the worse residuals.
+/// The second of two steps, with the work of both, what friction took in both and the worse residuals.
 fn after(first: &Increment, mut second: Increment) -> Increment {
     second.work += first.work;
+    if let (Some(all), Some(before)) = (&mut second.friction_work, &first.friction_work) {
+        *all += before;
+    }
     second.outcome.residual = second.outcome.residual.worse(&first.outcome.residual);
     second
 }

@@ -97,9 +97,7 @@ impl Rolling {
                 let moved = (by != [0.0; 2]).then(|| self.part_of_gap(to) - self.part_of_gap(from));
                 if self.at != Some(to) {
                     let mut gap = self.part_of_gap(to);
-                    if let Some(worn) = &state.worn_depth {
-                        gap += worn;
-                    }
+                    state.open(&mut gap);
                     solver.move_gap(gap);
                     self.at = Some(to);
                 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use ndarray::Array2;
 
 use super::checkpoint::Checkpoint;
+use super::debris::Debris;
 use super::evolving::Evolving;
 use super::journey::Journey;
 use super::moving::{Moving, Stepper};
@@ -12,6 +13,7 @@ use super::observer::Observer;
 use super::pair_compliance::PairCompliance;
 use super::plausibility::Gauge;
 use super::records::Records;
+use super::rim::OpenRim;
 use super::rolling::Rolling;
 use super::run_error::{RunError, run_error, too_thin};
 use super::stiffest_wave::StiffestWave;
@@ -117,31 +119,39 @@ impl<'a> Simulation<'a> {
             Some(compliance) => PairCompliance::clone(compliance),
             None => PairCompliance::of(plan),
         };
-        let Checkpoint { place, state, memory, cycle, wear, upper_wear, slip } = from;
+        let Checkpoint { place, state, memory, cycle, wear, upper_wear, debris, slip } = from;
         let stiffest = case.wear.is_some().then(|| StiffestWave::of(plan, &compliance));
         let gap = case.profile.gap(&plan.grid);
         let unworn = state.worn_depth.as_ref().map(|_| symmetry.part(&gap));
         let mut solver = self.solver(compliance, gap);
-        if let (Some(unworn), Some(depth)) = (&unworn, &state.worn_depth) {
-            solver.set_gap(unworn + depth);
+        if let Some(unworn) = &unworn {
+            let mut gap = unworn.clone();
+            state.open(&mut gap);
+            solver.set_gap(gap);
         }
+        let rim = |body: usize| {
+            let rule = case.wear.as_ref().and_then(|rule| rule.rim.as_ref());
+            rule.map(|rule| OpenRim::new(rule, body, &plan.grid, symmetry))
+        };
+        let of_jumps = case.wear.as_ref().map(|rule| (rule.tolerance, rule.largest_step));
+        let debris = of_jumps.zip(debris).map(|(bounds, collected)| Debris::new(bounds, collected));
         let friction = || symmetry.part_of_friction(&case.friction).into_owned();
         let upper =
             case.wear.as_ref().zip(upper_wear).zip(stiffest.clone()).map(|((rule, collected), stiffest)| {
                 let wearing =
                     Wearing::new(rule.of_body(1), stiffest, Array2::zeros([0, 0]), friction(), collected);
-                (wearing, (Motion::over(&plan.grid), case.periodic))
+                (wearing.with_rim(rim(1)), (Motion::over(&plan.grid), case.periodic))
             });
         let rule =
             if upper.is_some() { case.wear.as_ref().map(|rule| rule.of_body(0)) } else { case.wear.clone() };
         let wears = rule.zip(wear).zip(stiffest.zip(unworn));
         let wearing = wears.map(|((rule, collected), (stiffest, unworn))| {
-            Wearing::new(rule, stiffest, unworn, friction(), collected)
+            Wearing::new(rule, stiffest, unworn, friction(), collected).with_rim(rim(0))
         });
         let evolution = case.friction_evolution.clone().zip(slip).zip(state.accumulated.as_ref());
         let evolving =
             evolution.map(|((rule, collected), slipped)| Evolving::new(rule, friction(), slipped, collected));
-        let surfaces = Surfaces { wearing, upper, evolving, integration: case.integration };
+        let surfaces = Surfaces { wearing, upper, debris, evolving, integration: case.integration };
         solver.set_tilt(state.tilt);
         // Last: a new gap makes a solver forget.
         solver.restore_memory(memory);
@@ -150,9 +160,8 @@ impl<'a> Simulation<'a> {
             Ok(moving) => moving,
             Err(error) => {
                 let error = run_error(&error, place.solved, case, place.stage);
-                let worn = surfaces.worn();
-                let slipped = surfaces.evolving.as_ref().map(Evolving::collected);
-                return (Records::default().history(plan, (&place, state), (worn, slipped)), Err(error));
+                let underway = surfaces.underway();
+                return (Records::default().history(plan, (&place, state), underway), Err(error));
             }
         };
         let rolling = case.rolls().then(|| Rolling::of(plan));
@@ -179,6 +188,7 @@ impl<'a> Simulation<'a> {
                 reuse_pressure: plan.leave_out.takes(Simplification::Pressure)
                     && !plan.moves
                     && !case.rolls(),
+                friction_work: case.output.fields.iter().any(|name| name == "friction_work"),
                 skip_unloaded_shear: plan.leave_out.takes(Simplification::Tangential),
                 ..SolverSettings::new(case.tolerance)
             },

@@ -3,7 +3,8 @@
 
 use ndarray::Array2;
 
-use super::evolving::{Evolved, Evolving};
+use super::debris::{CollectedDebris, Debris, OneCycle};
+use super::evolving::{CollectedSlip, Evolved, Evolving};
 use super::wear::{self, Collected, TooFast, Wearing};
 use crate::model::{ContactState, CoulombFriction, Integration, Motion};
 use crate::solver::SolveError;
@@ -15,10 +16,23 @@ pub struct Surfaces {
     pub wearing: Option<Wearing>,
     /// Wear of the upper body in its own frame, where they move against each other; how it moves, and whether the surfaces repeat.
     pub upper: Option<(Wearing, (Motion, bool))>,
+    /// What becomes of worn material, where some of it stays between them.
+    pub debris: Option<Debris>,
     /// Their friction, where it evolves.
     pub evolving: Option<Evolving>,
     /// How slip is integrated.
     pub integration: Integration,
+}
+
+/// What slip has done since the surfaces changed last.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Underway<'a> {
+    /// Wear of both bodies together, or of the lower and the upper one.
+    pub wear: [Option<&'a Collected>; 2],
+    /// What becomes debris.
+    pub debris: Option<&'a CollectedDebris>,
+    /// What friction follows.
+    pub slip: Option<&'a CollectedSlip>,
 }
 
 /// A block of equal cycles that is over.
@@ -66,7 +80,10 @@ impl Surfaces {
     /// When the wear of the upper body leaves the grid.
     pub fn add(&mut self, before: &ContactState, after: &ContactState) -> Result<(), SolveError> {
         if let Some((upper, motion)) = &mut self.upper {
-            upper.add_in_frame([before, after], self.integration, *motion)?;
+            let worn = upper.add_in_frame([before, after], self.integration, *motion)?;
+            if let Some(debris) = &mut self.debris {
+                debris.add_above(worn.each_ref());
+            }
         }
         if let Some(wearing) = &mut self.wearing {
             wearing.add([before, after], self.integration);
@@ -82,6 +99,7 @@ impl Surfaces {
         if let Some(evolving) = &mut self.evolving {
             evolving.begin_stage();
         }
+        self.debris.iter_mut().for_each(Debris::begin_stage);
         self.each_wearing().for_each(Wearing::begin_stage);
     }
 
@@ -93,10 +111,14 @@ impl Surfaces {
         }
     }
 
-    /// What was collected since the gap was opened last: of both bodies together, or of the lower and the upper one.
-    pub fn worn(&self) -> [Option<&Collected>; 2] {
+    /// What slip has done since the surfaces changed last.
+    pub(crate) fn underway(&self) -> Underway<'_> {
         let upper = self.upper.as_ref().map(|(upper, _)| upper);
-        [self.wearing.as_ref(), upper].map(|wearing| wearing.map(Wearing::collected))
+        Underway {
+            wear: [self.wearing.as_ref(), upper].map(|wearing| wearing.map(Wearing::collected)),
+            debris: self.debris.as_ref().map(Debris::collected),
+            slip: self.evolving.as_ref().map(Evolving::collected),
+        }
     }
 
     /// The wear of both bodies together, or of each.
@@ -114,7 +136,7 @@ impl Surfaces {
         state: &mut ContactState,
         (most, of_cycle): (usize, bool),
     ) -> Result<Block, TooFast> {
-        let Self { wearing, upper, evolving, .. } = self;
+        let Self { wearing, upper, debris, evolving, .. } = self;
         let mut upper = upper.as_mut().map(|(upper, _)| upper);
         let mut most = most;
         if wearing.is_none() && evolving.is_none() {
@@ -142,12 +164,31 @@ impl Surfaces {
         if let Some(upper) = &upper {
             block.cycles = upper.cycles(state.upper_worn_depth.as_ref(), before, block.cycles)?;
         }
+        let depths = [&state.worn_depth, &state.upper_worn_depth];
+        let of_one = debris.as_ref().zip(wearing.as_ref()).map(|(_, wearing)| {
+            let both = [Some(wearing.collected()), upper.as_deref().map(Wearing::collected)];
+            OneCycle::of(both, depths.map(Option::as_ref))
+        });
+        if let (Some(debris), Some(of_one), Some(thickness)) = (&debris, &of_one, &state.debris) {
+            block.cycles = debris.cycles(of_one, thickness, (state.approach, block.cycles));
+        }
+        let mut worn = [None, None];
         let bodies =
             [(wearing.as_mut(), &mut state.worn_depth), (upper.as_deref_mut(), &mut state.upper_worn_depth)];
-        for (wearing, depth) in bodies {
+        for ((wearing, depth), worn) in bodies.into_iter().zip(&mut worn) {
             if let Some(wearing) = wearing {
-                block.take(&wearing.block(depth.as_ref(), block.cycles), depth);
+                let of_block = wearing.block(depth.as_ref(), block.cycles);
+                block.take(&of_block, depth);
+                *worn = Some(of_block.depth);
             }
+        }
+        if let (Some(debris), Some(of_one), Some(thickness)) = (debris, &of_one, &mut state.debris) {
+            let before = thickness.clone();
+            let worn = worn.each_ref().map(Option::as_ref);
+            let (gone, error) = debris.block(thickness, (of_one, block.cycles), worn);
+            state.debris_outflow += gone;
+            block.opened |= *thickness != before;
+            block.wear_jump_error = block.wear_jump_error.zip(error).map(|(one, other)| one.max(other));
         }
         if let (Some(evolving), Some(slipped)) = (evolving, &mut state.accumulated) {
             block.evolved = Some(evolving.advance(slipped, block.cycles));

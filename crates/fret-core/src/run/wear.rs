@@ -3,9 +3,11 @@
 use ndarray::{Array2, Zip};
 use serde::{Deserialize, Serialize};
 
+use super::rim::OpenRim;
 use super::slip_increment::{add_path, add_wear, path, wear_by_ends};
 use super::stiffest_wave::StiffestWave;
 use crate::fields::{Outside, carried, leaves, stored};
+use crate::history::DebrisRecord;
 use crate::model::{ContactState, CoulombFriction, Integration, Motion, WearLaw, WearLayers, WearRule};
 use crate::plan::Plan;
 use crate::solver::SolveError;
@@ -75,6 +77,22 @@ impl Collected {
         Zip::from(depth).and(&self.wear).for_each(|depth, wear| *depth += deeper(layers, *depth, *wear));
     }
 
+    /// Slip distance in every cell [length].
+    pub(super) fn path(&self) -> &Array2<f64> {
+        &self.path
+    }
+
+    /// Depth [length] that what was collected takes off a body worn by `worn` [length] in so many cycles.
+    pub(super) fn of_cycles(&self, cycles: f64, worn: Option<&Array2<f64>>) -> Array2<f64> {
+        let mut depth = &self.wear * cycles;
+        let layers = self.layers.as_ref();
+        if layers.is_some() {
+            let worn = |cell: (usize, usize)| worn.map_or(0.0, |worn| worn[cell]);
+            depth.indexed_iter_mut().for_each(|(cell, wear)| *wear = deeper(layers, worn(cell), *wear));
+        }
+        depth
+    }
+
     /// Whether this was collected on a grid of `cells`.
     pub fn fits(&self, cells: [usize; 2]) -> bool {
         [&self.wear, &self.path].into_iter().chain(&self.last).all(|field| field.dim() == cells.into())
@@ -101,6 +119,8 @@ pub struct Wearing {
     unworn: Array2<f64>,
     /// Friction law in force.
     friction: CoulombFriction,
+    /// Part of the wear coefficient that is in force in each cell, where that depends on the rim of the contact.
+    rim: Option<OpenRim>,
     collected: Collected,
 }
 
@@ -126,7 +146,13 @@ impl Wearing {
         friction: CoulombFriction,
         collected: Collected,
     ) -> Self {
-        Self { rule, stiffest, unworn, friction, collected }
+        Self { rule, stiffest, unworn, friction, rim: None, collected }
+    }
+
+    /// The same with a wear coefficient that depends on the rim of the contact.
+    #[must_use]
+    pub fn with_rim(self, rim: Option<OpenRim>) -> Self {
+        Self { rim, ..self }
     }
 
     /// Another friction law from now on.
@@ -150,19 +176,38 @@ impl Wearing {
         &self.collected
     }
 
-    /// Undeformed gap of surfaces worn by a depth in all. It depends on that depth alone, whatever steps led to it.
-    pub fn gap(&self, worn_depth: &Array2<f64>) -> Array2<f64> {
-        &self.unworn + worn_depth
+    /// Undeformed gap of surfaces that are worn as in a state. It depends on what is worn and filled alone, whatever steps led to it.
+    pub fn gap(&self, state: &ContactState) -> Array2<f64> {
+        let mut gap = self.unworn.clone();
+        state.open(&mut gap);
+        gap
     }
 
     /// Adds the wear between two states that follow each other.
     pub fn add(&mut self, states: [&ContactState; 2], integration: Integration) {
-        add_wear(states, integration, &self.friction, &self.rule, &mut self.collected.wear);
+        if self.rim.is_some() {
+            for worn in self.by_ends(states, integration) {
+                self.collected.wear += &worn;
+            }
+        } else {
+            add_wear(states, integration, &self.friction, &self.rule, &mut self.collected.wear);
+        }
         add_path(states, integration, &mut self.collected.path);
     }
 
+    /// The wear between two states that follow each other, by what each of them has a part in.
+    fn by_ends(&self, states: [&ContactState; 2], integration: Integration) -> [Array2<f64>; 2] {
+        let mut worn = wear_by_ends(states, integration, &self.friction, &self.rule);
+        if let Some(rim) = &self.rim {
+            for (worn, state) in worn.iter_mut().zip(states) {
+                *worn *= &rim.factors(&state.pressure);
+            }
+        }
+        worn
+    }
+
     /// Adds the wear of the upper body between two states that follow each other, in its own frame: what each pressure has a part in lies where
-    /// the body was under it.
+    /// the body was under it. Returns both parts over the grid.
     ///
     /// # Errors
     /// When it leaves the grid, on which the body lay without a shift.
@@ -171,10 +216,10 @@ impl Wearing {
         states: [&ContactState; 2],
         integration: Integration,
         (motion, repeats): (Motion, bool),
-    ) -> Result<(), SolveError> {
+    ) -> Result<[Array2<f64>; 2], SolveError> {
         let outside = if repeats { Outside::Repeats } else { Outside::Zero };
         let back = states.map(|state| motion.cells(state.shift).map(|cells| -cells));
-        let worn = wear_by_ends(states, integration, &self.friction, &self.rule);
+        let worn = self.by_ends(states, integration);
         for (worn, back) in worn.iter().zip(back) {
             if !repeats && leaves(worn, back) {
                 return Err(SolveError::ContactAtEdge);
@@ -182,7 +227,7 @@ impl Wearing {
             self.collected.wear += &carried(worn, back, outside);
         }
         self.collected.path += &carried(&path(states, integration), back[1], outside);
-        Ok(())
+        Ok(worn)
     }
 
     /// Share of the stiffest wave of pressure that the wear collected so far takes off.
@@ -197,17 +242,6 @@ impl Wearing {
             .fold(0.0, f64::max)
             * self.rule.largest_rate()
             / self.stiffest.displacement(&self.collected.path)
-    }
-
-    /// Depth [length] that the wear collected so far takes off a body worn by `worn` [length] in so many cycles.
-    fn of_cycles(&self, cycles: f64, worn: Option<&Array2<f64>>) -> Array2<f64> {
-        let mut depth = &self.collected.wear * cycles;
-        let layers = self.rule.layers.as_ref();
-        if layers.is_some() {
-            let worn = |cell: (usize, usize)| worn.map_or(0.0, |worn| worn[cell]);
-            depth.indexed_iter_mut().for_each(|(cell, wear)| *wear = deeper(layers, worn(cell), *wear));
-        }
-        depth
     }
 
     /// Cycles that the wear collected so far may stand for, at the most `most`, at an approach [length]; `softening`: what one of them takes
@@ -225,7 +259,7 @@ impl Wearing {
             return Err(TooFast { share: softening });
         }
         let rule = &self.rule;
-        let deepest = self.of_cycles(1.0, worn).into_iter().fold(0.0, f64::max);
+        let deepest = self.collected.of_cycles(1.0, worn).into_iter().fold(0.0, f64::max);
         let worn = |cell: (usize, usize)| worn.map_or(0.0, |worn| worn[cell]);
         let within =
             |bound: f64, each: f64| if each > 0.0 { (bound / each).floor() as usize } else { usize::MAX };
@@ -246,7 +280,7 @@ impl Wearing {
 
     /// The block of so many cycles that the wear collected so far stands for; collecting starts anew.
     pub fn block(&mut self, worn: Option<&Array2<f64>>, cycles: usize) -> Block {
-        let depth = self.of_cycles(cycles as f64, worn);
+        let depth = self.collected.of_cycles(cycles as f64, worn);
         let worn = |cell: (usize, usize)| worn.map_or(0.0, |worn| worn[cell]);
         let rule = &self.rule;
         let mut deepest = ([0, 0], 0.0);
@@ -332,6 +366,16 @@ impl Wearing {
         let bound = if bound.is_nan() { f64::INFINITY } else { bound };
         (bound.floor() as usize).min(2 * last)
     }
+}
+
+/// The debris of the whole contact.
+pub fn debris(state: &ContactState, plan: &Plan) -> DebrisRecord {
+    let outflow = state.debris_outflow;
+    state.debris.as_ref().map_or_else(DebrisRecord::default, |thickness| DebrisRecord {
+        volume: thickness.iter().sum::<f64>() * plan.area_of_cell(),
+        outflow,
+        max_thickness: thickness.iter().copied().fold(0.0, f64::max),
+    })
 }
 
 /// Volume worn off the whole contact [length^3], and the largest depth [length]; of bodies that move against each other the larger one of

@@ -71,8 +71,16 @@ impl ContactSolver<'_> {
             }
             let fraction = outcome.stick_cells as f64 / outcome.contact_cells.max(1) as f64;
             let stick_area = contact_area * fraction;
-            let increment =
-                Increment { state: after, outcome, contact_area, stick_area, gap, work: self.work };
+            let friction_work = self.friction_work.take();
+            let increment = Increment {
+                state: after,
+                outcome,
+                contact_area,
+                stick_area,
+                gap,
+                friction_work,
+                work: self.work,
+            };
             self.remember((state, load), (region, pace), solved, &increment);
             return Ok(increment);
         }
@@ -92,7 +100,7 @@ impl ContactSolver<'_> {
         (state, load): (&ContactState, &LoadStep),
         callback: IterationCallback<'_>,
     ) -> Result<(Solved, ContactState, Outcome), SolveError> {
-        let grid = self.grid;
+        let (grid, keeps_work) = (self.grid, self.settings.friction_work);
         let copies = self.symmetry.copies();
         let bodies = (self.rig.of_part(copies), self.stretch(state, load));
         let (loads, surface) = ((state, load), (&*self.friction, self.coupling));
@@ -109,11 +117,14 @@ impl ContactSolver<'_> {
         increment.carried = self.carried.as_ref().map(|carried| region.gather_tangential(carried));
         increment.moved = self.moved.as_ref().map(|moved| region.gather(moved));
         let known = self.memory.last.as_ref().map(|last| StateBefore::of_gap(&last.gap, region));
+        let by_cell = || keeps_work.then(|| Array2::zeros(grid.cells()));
         let apart = match increment.apart() {
             Some(solved) if !increment.touched() => {
                 let before = known.unwrap_or_else(|| increment.state_before(None));
                 let rule = (0.0, self.settings.integration);
-                let (after, outcome) = state_after(&increment, &solved, &before, rule);
+                self.friction_work = by_cell();
+                let (after, outcome) =
+                    state_after(&increment, &solved, &before, rule, self.friction_work.as_mut());
                 return Ok((solved, after, outcome));
             }
             apart => apart,
@@ -139,8 +150,10 @@ impl ContactSolver<'_> {
         self.memory.region = Some(region);
         let mut solved = solved?;
         let rule = (self_influence, self.settings.integration);
-        let (after, outcome) = state_after(&increment, &solved, &before, rule);
+        let mut work = by_cell();
+        let (after, outcome) = state_after(&increment, &solved, &before, rule, work.as_mut());
         increment.take_rate_since_touch(&mut solved);
+        self.friction_work = work;
         self.work.outer_iterations += solved.solution.iterations;
         if outcome.residual.equilibrium > self.settings.tolerance {
             increment.check_limit(&solved.tractions, 1.0)?;

@@ -115,6 +115,8 @@ pub struct ContactSolver<'a> {
     level: Option<Array2<f64>>,
     /// What moving surfaces add to the displacement before the next increment [length], and the cells that the contact may move by in it.
     carried: Option<[Array2<f64>; 2]>,
+    /// What friction has dissipated in the cells in the increment at work, where it is asked for.
+    friction_work: Option<Array2<f64>>,
     travel: usize,
     /// By how much moving surfaces change the gap before deformation in the next increment [length].
     moved: Option<Array2<f64>>,
@@ -157,6 +159,7 @@ impl<'a> ContactSolver<'a> {
             tilt: [0.0; 2],
             level: None,
             carried: None,
+            friction_work: None,
             travel: 0,
             moved: None,
             rolled: [0.0; 2],

@@ -152,6 +152,9 @@ pub struct Increment {
     pub stick_area: f64,
     /// Gap on the whole of the solver's grid [length].
     pub gap: Array2<f64>,
+    /// What friction has dissipated in the increment by area [pressure x length], on the whole of the solver's grid; `None` where it is not asked
+    /// for.
+    pub friction_work: Option<Array2<f64>>,
     /// Work spent.
     pub work: Work,
 }

@@ -38,6 +38,8 @@ pub struct SolverSettings {
     pub reuse_pressure: bool,
     /// Without coupling no shear is solved for before something causes it.
     pub skip_unloaded_shear: bool,
+    /// What friction dissipates is told of every cell.
+    pub friction_work: bool,
 }
 
 impl SolverSettings {
@@ -52,6 +54,7 @@ impl SolverSettings {
             single_precision: false,
             reuse_pressure: true,
             skip_unloaded_shear: true,
+            friction_work: false,
         }
     }
 }

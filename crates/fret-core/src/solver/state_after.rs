@@ -1,6 +1,8 @@
 //! From a solved region to the state after the increment: what every cell did, what friction dissipated and elasticity stored, resultants
 //! and residuals.
 
+use ndarray::Array2;
+
 use super::contact_set::ContactSet;
 use super::energy::StateBefore;
 use super::increment_problem::{IncrementProblem, Solved};
@@ -10,12 +12,14 @@ use super::outcome::{Outcome, Regime, Residual, Resultants};
 use crate::fields::{length, sum};
 use crate::model::{ContactState, Integration, Zone};
 
-/// The state after an increment from `start`, and what happened. `self_influence`: of the shear of a cell [length/pressure].
+/// The state after an increment from `start`, and what happened. `self_influence`: of the shear of a cell [length/pressure]; `by_cell`: where
+/// it is asked for, what friction dissipates in each cell by area [pressure x length], zero before.
 pub(super) fn state_after(
     problem: &IncrementProblem<'_>,
     solved: &Solved,
     start: &StateBefore,
     (self_influence, integration): (f64, Integration),
+    mut by_cell: Option<&mut Array2<f64>>,
 ) -> (ContactState, Outcome) {
     let stiffness = if self_influence > 0.0 { 1.0 / self_influence } else { 0.0 };
     let solution = &solved.solution;
@@ -33,6 +37,12 @@ pub(super) fn state_after(
     let mut moment = 0.0;
     let (mut tilt_moment, mut second_moment) = ([0.0; 2], [0.0; 2]);
     let mut dissipated = 0.0;
+    let mut dissipate = |at: [usize; 2], work: f64| {
+        dissipated += work;
+        if let Some(by_cell) = &mut by_cell {
+            by_cell[at] = work;
+        }
+    };
     let mut stored = 0.0;
     let moved = &solved.displacements;
     for (place, cell) in contact.cells().enumerate() {
@@ -65,7 +75,7 @@ pub(super) fn state_after(
         let shear_before = [0, 1].map(|axis| before.shear[axis][at]);
         let zones = [before.zone[at], zone];
         let way = length_of_way(integration, slip, zones, [shear_before, q]);
-        dissipated += dissipation([bound_before[place], bound[place]], way);
+        dissipate(at, dissipation([bound_before[place], bound[place]], way));
     }
     for cell in (0..region.len()).filter(|&cell| pressure[cell] <= 0.0) {
         let at = region.at(cell);
@@ -79,7 +89,7 @@ pub(super) fn state_after(
         for axis in 0..2 {
             state.slip[axis][at] += slip[axis];
         }
-        dissipated += dissipation([bound, 0.0], length(slip));
+        dissipate(at, dissipation([bound, 0.0], length(slip)));
     }
     let area = grid.cell_area();
     let area_of_copies = area * problem.copies as f64;
@@ -121,6 +131,7 @@ fn tractions_and_motions(problem: &IncrementProblem<'_>, solved: &Solved) -> Con
     let mut state = ContactState::untouched(grid.cells());
     state.worn_depth.clone_from(&before.worn_depth);
     state.upper_worn_depth.clone_from(&before.upper_worn_depth);
+    state.debris.clone_from(&before.debris);
     state.accumulated.clone_from(&before.accumulated);
     region.place(&solved.tractions.pressure, &mut state.pressure);
     region.place(&solved.tractions.shear.x, &mut state.shear[0]);
@@ -147,6 +158,7 @@ fn tractions_and_motions(problem: &IncrementProblem<'_>, solved: &Solved) -> Con
     state.external_work = before.external_work;
     state.wear_work = before.wear_work;
     state.unresolved_energy = before.unresolved_energy;
+    state.debris_outflow = before.debris_outflow;
     state
 }
 

@@ -84,6 +84,9 @@ fn cards(view: &Overview<'_>) -> Vec<(&'static str, String)> {
     if case.wear.is_some() {
         cards.push(("wear volume", view.number(table.at("worn_volume", last), "length^3")));
         cards.push(("max wear depth", view.number(table.at("max_worn_depth", last), "length")));
+    }
+    if case.wear.as_ref().is_some_and(|wear| wear.debris.is_some()) {
+        cards.push(("debris", view.number(table.at("debris_volume", last), "length^3")));
         if let Some(cycle) = view.results.cycles.last() {
             cards.push(("cycles", cycle.last_cycle.to_string()));
         }

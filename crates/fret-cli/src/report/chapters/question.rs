@@ -152,6 +152,22 @@ fn wear(view: &Overview<'_>, wear: &WearRule) -> String {
             }
         }
     }
+    if let Some(debris) = &wear.debris {
+        let flows = debris.outflow_length.map_or("none flows out".to_owned(), |length| {
+            format!("all but 1/e flows out in a slip distance of {}", view.given(length, "length"))
+        });
+        parts.push(format!("{} of it stays as debris, of which {flows}", given(debris.fraction)));
+    }
+    if let Some(rim) = &wear.rim {
+        let [lower, upper] = rim.interior;
+        let inside = if lower == upper {
+            given(lower)
+        } else {
+            format!("{} (lower), {} (upper)", given(lower), given(upper))
+        };
+        let width = view.given(rim.width, "length");
+        parts.push(format!("farther than {width} from the rim {inside} times the coefficient"));
+    }
     if let Some(tolerance) = wear.thinning_tolerance {
         parts.push(format!("worn layers are thinner, followed to {}", given(tolerance)));
     }

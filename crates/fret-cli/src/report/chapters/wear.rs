@@ -69,6 +69,7 @@ pub fn wear(view: &Overview<'_>) -> Result<Markup, Failure> {
         })
         .collect();
     let axes = [view.label(section.name(), "length"), view.label("wear depth", "length")];
+    let debris = debris(view, &section, last, [low, high])?;
     let figures = [
         figure_of(
             &Chart::new("wear depth along a line through the contact", axes, curves).in_page(),
@@ -76,7 +77,36 @@ pub fn wear(view: &Overview<'_>) -> Result<Markup, Failure> {
         ),
         figure_of(&map.drawing()?.in_page(), "Wear depth at the end."),
     ];
+    let figures: Vec<Markup> = figures.into_iter().chain(debris).collect();
     Ok(chapter("Wear scar", &side_by_side(&figures)))
+}
+
+/// The wear depth at the end, the debris in it, and what is open between the two, along the line; `None` where no debris is kept.
+fn debris(
+    view: &Overview<'_>,
+    section: &Section,
+    last: usize,
+    [low, high]: [usize; 2],
+) -> Result<Option<Markup>, Failure> {
+    let fields = &view.results.fields;
+    if !fields.has("debris") {
+        return Ok(None);
+    }
+    let worn = section.values(&fields.field("worn_depth", last)?);
+    let debris = section.values(&fields.field("debris", last)?);
+    let curve = |value: &dyn Fn(usize) -> f64, name: &str, colour: usize| {
+        Curve::line((low..=high).map(|k| [section.along[k], value(k)]).collect(), name, colour)
+    };
+    let curves = vec![
+        curve(&|k| worn[k], "wear depth", 0),
+        curve(&|k| debris[k], "debris", 1),
+        curve(&|k| worn[k] - debris[k], "open", 2),
+    ];
+    let axes = [view.label(section.name(), "length"), view.label("depth", "length")];
+    Ok(Some(figure_of(
+        &Chart::new("debris in the scar along a line through the contact", axes, curves).in_page(),
+        "At the end: wear depth of both bodies together, thickness of the debris, and what is open between them.",
+    )))
 }
 
 /// Kept increments with a scar that can be told from the others, evenly over the run.
