@@ -24,7 +24,7 @@ pub fn gradient(
     threads: Threads,
 ) -> PyResult<Found> {
     let pool = threads::pool(threads)?;
-    let request = Request { of, by };
+    let request = Request { of, by, direction: None };
     let plan = py.detach(|| pool.install(|| case.planned())).map_err(|error| refused(&error))?;
     let (answer, interruption): (_, Option<PyErr>) = py.detach(|| {
         listen(&plan, None, |reporter| {

@@ -25,7 +25,7 @@ pub fn sensitivity(arguments: &SensitivityArguments, as_json: bool) -> Result<()
     interrupt::listen();
     let pool = threads::pool(threads::asked(arguments.threads))?;
     let of = if arguments.of.is_empty() { usual_results(&plan) } else { arguments.of.clone() };
-    let request = Request { of, by: arguments.by.clone() };
+    let request = Request { of, by: arguments.by.clone(), direction: None };
     let found = pool.install(|| gradient(&plan, &request, &mut Listener)).map_err(refused)?;
     if as_json { terminal::answer_in_json(&record(&found)) } else { terminal::answer(&table(&found)) }
 }

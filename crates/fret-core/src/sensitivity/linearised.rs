@@ -1,6 +1,6 @@
 //! The equations of a solved increment, linearised on the sets that its solution has: cells in contact keep their gap closed, cells that
 //! stick their slip, the shear of those that slip follows the friction bound and turns with the slip; resultants and motions that are prescribed
-//! stay so. Left sides alone: what drives them stands in `drive.rs`.
+//! stay so. Left sides alone: what they ask for stands in `contact.rs`, their transpose in `transposed.rs`.
 //!
 //! Unknown are the changes of the pressure `p` in contact, of shear `q`, and of the rigid motions. In slip
 //! `dq = (b' dp) e + dt n` with the direction `e` of the shear, `n` across it; what is unknown is `dt`.
@@ -51,17 +51,17 @@ pub(super) fn displacements(
 
 /// The linearised equations of one increment.
 pub(super) struct Linearised<'a> {
-    operators: &'a mut Operators,
-    contact: &'a ContactSet,
-    cells: &'a [Cell],
-    prescribed: [Prescribed; MOTIONS],
-    weights: SlipWeights<f64>,
+    pub(super) operators: &'a mut Operators,
+    pub(super) contact: &'a ContactSet,
+    pub(super) cells: &'a [Cell],
+    pub(super) prescribed: [Prescribed; MOTIONS],
+    pub(super) weights: SlipWeights<f64>,
     /// Influence of a cell on itself, normal and tangential: the unit of the equations [length/pressure].
-    own: [f64; 2],
+    pub(super) own: [f64; 2],
     /// What the approximate inverse makes of each motion, and the small matrix of motions against their rows.
-    bordered: Vec<Vec<f64>>,
-    schur: [[f64; MOTIONS]; MOTIONS],
-    region: usize,
+    pub(super) bordered: Vec<Vec<f64>>,
+    pub(super) schur: [[f64; MOTIONS]; MOTIONS],
+    pub(super) region: usize,
 }
 
 impl<'a> Linearised<'a> {
@@ -178,12 +178,12 @@ impl<'a> Linearised<'a> {
     }
 
     /// Weight of the equation of a cell that slips: then a residual means a traction.
-    fn slip_weight(&self, compliance: f64) -> f64 {
+    pub(super) fn slip_weight(&self, compliance: f64) -> f64 {
         1.0 / (1.0 + compliance / self.own[1])
     }
 
     /// Weight of the equation of a motion.
-    fn weight_of(&self, motion: usize) -> f64 {
+    pub(super) fn weight_of(&self, motion: usize) -> f64 {
         match self.prescribed[motion] {
             Prescribed::Motion | Prescribed::FarEnd(_) => 1.0 / self.own[0],
             Prescribed::Resultant => 1.0 / self.cells.len() as f64,
@@ -191,7 +191,7 @@ impl<'a> Linearised<'a> {
     }
 
     /// Left sides of what is prescribed.
-    fn prescribed_rows(&self, resultants: [f64; MOTIONS], motions: &[f64], to: &mut [f64]) {
+    pub(super) fn prescribed_rows(&self, resultants: [f64; MOTIONS], motions: &[f64], to: &mut [f64]) {
         for motion in 0..MOTIONS {
             let moved = motions[motion];
             to[motion] = match self.prescribed[motion] {
@@ -263,29 +263,38 @@ impl<'a> Linearised<'a> {
         }
     }
 
-    /// Prepares the border: motions, and what is prescribed of them.
-    fn border(&mut self) {
-        let n = self.cells.len();
-        for motion in 0..MOTIONS {
-            let mut moved = zeros(n);
-            for (place, cell) in self.cells.iter().enumerate() {
-                let mode = cell.modes()[motion];
-                for part in 0..3 {
-                    moved[part][place] = -mode[part] * self.own[0];
-                }
+    /// What motions make of the rows of the cells.
+    fn rows_of_motions(&self, amounts: &[f64; MOTIONS]) -> Vec<f64> {
+        let moved = amounts.map(|amount| -amount * self.own[0]);
+        let mut by_motions = zeros(self.cells.len());
+        for (place, cell) in self.cells.iter().enumerate() {
+            for (part, moved) in cell.moved(&moved).into_iter().enumerate() {
+                by_motions[part][place] = moved;
             }
-            let mut equations = vec![0.0; self.len()];
-            self.cell_rows(&moved, &vec![0.0; self.len()], &mut equations);
-            let mut inverse = vec![0.0; self.len()];
-            self.invert_cells(&equations, &mut inverse);
-            let resultants = self.resultants(&self.tractions(&inverse));
-            let mut unit = [0.0; MOTIONS];
-            unit[motion] = 1.0;
-            let (mut own, mut through) = ([0.0; MOTIONS], [0.0; MOTIONS]);
-            self.prescribed_rows([0.0; MOTIONS], &unit, &mut own);
-            self.prescribed_rows(resultants, &[0.0; MOTIONS], &mut through);
-            for row in 0..MOTIONS {
-                self.schur[row][motion] = own[row] - through[row];
+        }
+        let mut rows = vec![0.0; self.len()];
+        self.cell_rows(&by_motions, &vec![0.0; self.len()], &mut rows);
+        rows
+    }
+
+    /// Prepares the border: motions that follow from resultants, and their rows. What is prescribed of the others they are.
+    fn border(&mut self) {
+        for motion in 0..MOTIONS {
+            self.schur[motion][motion] = 1.0;
+            let mut inverse = Vec::new();
+            if self.prescribed[motion] != Prescribed::Motion {
+                let mut unit = [0.0; MOTIONS];
+                unit[motion] = 1.0;
+                let equations = self.rows_of_motions(&unit);
+                inverse.resize(self.len(), 0.0);
+                self.invert_cells(&equations, &mut inverse);
+                let resultants = self.resultants(&self.tractions(&inverse));
+                let (mut own, mut through) = ([0.0; MOTIONS], [0.0; MOTIONS]);
+                self.prescribed_rows([0.0; MOTIONS], &unit, &mut own);
+                self.prescribed_rows(resultants, &[0.0; MOTIONS], &mut through);
+                for row in 0..MOTIONS {
+                    self.schur[row][motion] = own[row] - through[row];
+                }
             }
             self.bordered.push(inverse);
         }
@@ -311,14 +320,22 @@ impl LinearProblem for Linearised<'_> {
 
     fn invert(&mut self, equations: &[f64], unknowns: &mut [f64]) {
         let n = self.cells.len();
-        self.invert_cells(equations, unknowns);
+        let is_known = |motion: usize| self.prescribed[motion] == Prescribed::Motion;
+        let known: [f64; MOTIONS] =
+            std::array::from_fn(|motion| if is_known(motion) { equations[3 * n + motion] } else { 0.0 });
+        let mut left = equations.to_vec();
+        if known != [0.0; MOTIONS] {
+            add_scaled(&mut left[..3 * n], -1.0, &self.rows_of_motions(&known)[..3 * n]);
+        }
+        self.invert_cells(&left, unknowns);
         unknowns[3 * n..].fill(0.0);
         let resultants = self.resultants(&self.tractions(unknowns));
         let mut through = [0.0; MOTIONS];
         self.prescribed_rows(resultants, &[0.0; MOTIONS], &mut through);
         let right = std::array::from_fn(|motion| equations[3 * n + motion] - through[motion]);
         let amounts = solved(self.schur, right);
-        for (amount, inverse) in amounts.iter().zip(&self.bordered) {
+        for (amount, inverse) in amounts.iter().zip(&self.bordered).filter(|(_, inverse)| !inverse.is_empty())
+        {
             add_scaled(&mut unknowns[..3 * n], -amount, &inverse[..3 * n]);
         }
         unknowns[3 * n..].copy_from_slice(&amounts);
@@ -326,7 +343,7 @@ impl LinearProblem for Linearised<'_> {
 }
 
 /// Solves a small system by elimination with exchange of rows; an unknown that nothing tells is zero.
-fn solved(mut a: [[f64; MOTIONS]; MOTIONS], mut b: [f64; MOTIONS]) -> [f64; MOTIONS] {
+pub(super) fn solved(mut a: [[f64; MOTIONS]; MOTIONS], mut b: [f64; MOTIONS]) -> [f64; MOTIONS] {
     for m in 0..MOTIONS {
         let pivot =
             (m..MOTIONS).fold(m, |best, row| if a[row][m].abs() > a[best][m].abs() { row } else { best });
