@@ -181,10 +181,10 @@ impl Target {
 }
 
 /// Takes the increments of a run for later.
-struct Snapshots<'a> {
-    steps: Vec<Snapshot>,
-    cycles: Vec<CycleRecord>,
-    observer: &'a mut dyn Observer,
+pub(super) struct Snapshots<'a> {
+    pub steps: Vec<Snapshot>,
+    pub cycles: Vec<CycleRecord>,
+    pub observer: &'a mut dyn Observer,
 }
 
 impl Observer for Snapshots<'_> {

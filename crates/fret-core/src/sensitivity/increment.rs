@@ -23,7 +23,7 @@ pub(super) const ENOUGH: f64 = 1e-9;
 
 /// Relative residual of the linear equations that is aimed at, of a history solved to a tolerance: what that leaves open is more.
 fn target(tolerance: f64) -> f64 {
-    (0.01 * tolerance).clamp(1e-13, 1e-10)
+    (0.1 * tolerance).clamp(1e-13, 1e-9)
 }
 
 /// An increment.

@@ -13,7 +13,7 @@
 use super::cell::{Cell, MOTIONS, Prescribed, Shear};
 use super::krylov::LinearProblem;
 use crate::compliance::{SpectralCompliance, SurfaceCompliance};
-use crate::fields::add_scaled;
+use crate::fields::{add_scaled, norm};
 use crate::solver::{ContactSet, Preconditioner, SlipWeights};
 
 /// Operators on the cells of the region of a history.
@@ -62,6 +62,8 @@ pub(super) struct Linearised<'a> {
     pub(super) bordered: Vec<Vec<f64>>,
     pub(super) schur: [[f64; MOTIONS]; MOTIONS],
     pub(super) region: usize,
+    /// Whether displacements are found in single precision, where they can be.
+    hurries: bool,
 }
 
 impl<'a> Linearised<'a> {
@@ -90,6 +92,7 @@ impl<'a> Linearised<'a> {
             bordered: Vec::new(),
             schur: [[0.0; MOTIONS]; MOTIONS],
             region,
+            hurries: false,
         };
         if !cells.is_empty() {
             problem.border();
@@ -100,6 +103,32 @@ impl<'a> Linearised<'a> {
     /// Displacements of tractions on all cells of the region [length].
     pub fn displacements(&mut self, tractions: &Fields) -> Fields {
         displacements(&mut self.operators.compliance, self.operators.frictional, tractions)
+    }
+
+    /// Displacements of tractions in the cells of the contact, both packed; in single precision where that is wanted [length].
+    pub(super) fn moved(&mut self, tractions: &Fields) -> Fields {
+        let mut moved = zeros(self.cells.len());
+        let Operators { compliance, preconditioner, frictional } = &mut *self.operators;
+        let from = tractions.each_ref().map(Vec::as_slice);
+        let mut to = moved.each_mut().map(Vec::as_mut_slice);
+        if !*frictional {
+            preconditioner.fields::<f64>().carry(&from[..1], &mut to[..1], [1.0; 2], |from, to| {
+                compliance.normal(from[0], to[0]);
+            });
+            return moved;
+        }
+        if let Some(mut single) = self.hurries.then(|| compliance.full_single()).flatten() {
+            let size = from.iter().map(|part| norm(part)).fold(0.0, f64::max);
+            let unit = if size > 0.0 { size } else { 1.0 };
+            let factors = [unit, unit * single.unit()];
+            preconditioner.fields::<f32>().carry(&from, &mut to, factors, |from, to| single.apply(from, to));
+            return moved;
+        }
+        preconditioner.fields::<f64>().carry(&from, &mut to, [1.0; 2], |from, to| {
+            let [normal, x, y] = to else { return };
+            compliance.full([from[0], from[1], from[2]], [normal, x, y]);
+        });
+        moved
     }
 
     /// How many unknowns there are.
@@ -304,9 +333,9 @@ impl<'a> Linearised<'a> {
 impl LinearProblem for Linearised<'_> {
     fn apply(&mut self, unknowns: &[f64], equations: &mut [f64]) {
         let n = self.cells.len();
-        let (tractions, motions) = self.parted(unknowns);
-        let moved = self.displacements(&tractions);
-        let mut moved = moved.map(|field| self.contact.packed(&field));
+        let tractions = self.tractions(unknowns);
+        let motions = std::array::from_fn(|motion| unknowns[3 * n + motion] * self.own[0]);
+        let mut moved = self.moved(&tractions);
         for (place, cell) in self.cells.iter().enumerate() {
             let by_motions = cell.moved(&motions);
             for part in 0..3 {
@@ -314,8 +343,13 @@ impl LinearProblem for Linearised<'_> {
             }
         }
         self.cell_rows(&moved, unknowns, equations);
-        let resultants = self.resultants(&tractions.map(|field| self.contact.packed(&field)));
+        let resultants = self.resultants(&tractions);
         self.prescribed_rows(resultants, &unknowns[3 * n..], &mut equations[3 * n..]);
+    }
+
+    fn hurry(&mut self, may: bool) -> bool {
+        self.hurries = may && self.operators.compliance.full_single().is_some();
+        self.hurries
     }
 
     fn invert(&mut self, equations: &[f64], unknowns: &mut [f64]) {

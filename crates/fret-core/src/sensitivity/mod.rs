@@ -25,6 +25,8 @@ mod refusals;
 mod rule;
 mod scene;
 mod solved;
+#[cfg(test)]
+mod tests;
 mod transposed;
 
 pub use error::SensitivityError;

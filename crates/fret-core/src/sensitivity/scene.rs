@@ -91,7 +91,7 @@ impl<'a> Scene<'a> {
             normal_from_all: false,
             shear_axis: self.plan.along,
             symmetry: self.plan.symmetry,
-            single: false,
+            single: self.plan.single_precision,
         }
     }
 

@@ -160,14 +160,7 @@ impl LinearProblem for Transposed<'_, '_> {
         let n = problem.cells.len();
         unknowns.fill(0.0);
         let seen = problem.cell_rows_transposed(rows, unknowns);
-        let region = problem.region;
-        let on_region = seen.each_ref().map(|packed| {
-            let mut field = vec![0.0; region];
-            problem.contact.scatter(packed, 1.0, &mut field);
-            field
-        });
-        let moved = problem.displacements(&on_region);
-        let mut tractions = moved.map(|field| problem.contact.packed(&field));
+        let mut tractions = problem.moved(&seen);
         problem.resultants_transposed(&problem.of_resultants(&rows[3 * n..]), &mut tractions);
         let mut of_tractions = vec![0.0; unknowns.len()];
         problem.tractions_transposed(&tractions, &mut of_tractions);
@@ -180,6 +173,10 @@ impl LinearProblem for Transposed<'_, '_> {
             };
             unknowns[3 * n + motion] = own - problem.own[0] * by_motions[motion];
         }
+    }
+
+    fn hurry(&mut self, may: bool) -> bool {
+        self.0.hurry(may)
     }
 
     fn invert(&mut self, unknowns: &[f64], rows: &mut [f64]) {
