@@ -136,7 +136,9 @@ pub(super) fn backward(
             return Err(RunError::Interrupted { increment: number }.into());
         }
         if gathered.iter().all(|gathered| gathered.changes[0].is_none()) {
-            gathered.iter_mut().for_each(|gathered| gathered.changes.rotate_left(1));
+            for gathered in &mut gathered {
+                gathered.changes.rotate_left(1);
+            }
             continue;
         }
         let before =

@@ -416,7 +416,7 @@ impl Rule {
         }
     }
 
-    /// Whether the largest values are known: for tests.
+    /// How many cells slipped, stuck, were open, of those whose paths change.
     #[cfg(test)]
     pub fn kinds(&self) -> [usize; 3] {
         let count = |is: fn(&Path) -> bool| self.paths.iter().filter(|path| is(path)).count();

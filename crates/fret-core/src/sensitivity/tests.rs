@@ -56,7 +56,7 @@ increments = 3
 "#;
 
 /// A rigid ball on a like half-space, on a quarter of its grid; tilted, torsion on the whole.
-const SIMILAR: &str = r#"
+const SIMILAR: &str = r"
 [grid]
 cells = [24, 24]
 size = [3.0, 3.0]
@@ -77,7 +77,7 @@ increments = 3
 tangential_force = [0.03, 0.0]
 cycles = 1
 increments = 8
-"#;
+";
 
 fn vector(random: &mut Random, size: usize) -> Vec<f64> {
     (0..size).map(|_| random.between(-1.0, 1.0)).collect()
@@ -328,7 +328,7 @@ fn equations(
     alike("tractions", forward, dot(&unknowns, &x), 1e-12);
 }
 
-/// The whole of an increment. 1e-10: the linear equations, solved to 1e-13 both ways, times their condition.
+/// The whole of an increment. 1e-10: the linear equations, solved to 1e-12 both ways, times their condition.
 #[test]
 fn an_increment_goes_backwards_by_its_transpose() {
     let mut random = Random::seeded(42);
