@@ -1,10 +1,10 @@
 //! From the solution of an increment's linear equations to all that it leaves behind, and back.
 
 use super::cell::MOTIONS;
-use super::change::{Change, Solution};
+use super::change::{Change, Solution, add};
 use super::contact::Drive;
 use super::energies::{Energies, Inputs, Outputs};
-use super::rule::{PathChange, Rule, add, combination, product};
+use super::rule::{PathChange, Rule, combination, product};
 use super::scene::{MOTION_OF, Scene};
 use super::solved::{Solved, at, deep_by, moved_by};
 use crate::fields::{Slopes, add_scaled};

@@ -82,3 +82,9 @@ pub(super) struct Solution {
     pub displacements: super::linearised::Fields,
     pub motions: [f64; MOTIONS],
 }
+
+/// Adds to a cell of a tangential field.
+pub(super) fn add(field: &mut Tangential, cell: usize, [x, y]: [f64; 2]) {
+    field[0][cell] += x;
+    field[1][cell] += y;
+}

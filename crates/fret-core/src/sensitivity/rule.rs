@@ -1,6 +1,7 @@
 //! The rule of second order, linearised: how the paths of slip in an increment (`solver/slip_history.rs`) change with what came before it.
 
-use super::change::{Change, Tangential};
+use super::change::{Change, Tangential, add};
+use super::coming::SlipThatComes;
 use super::loads::Load;
 use super::scene::Scene;
 use super::solved::{Solved, at};
@@ -8,8 +9,8 @@ use crate::fields::{Scalar, Slopes, length_of};
 use crate::model::controls::FREEDOMS;
 use crate::model::{Integration, Zone};
 use crate::solver::{
-    ContactSet, Edge, Pace, SlipOfEdge, Then, distance, moment_of_touch, pace_of, path_after_slip,
-    turn_after_stick, way_to_touch,
+    ContactSet, Edge, Pace, SlipOfEdge, Then, moment_of_touch, pace_of, path_after_slip, turn_after_stick,
+    way_to_touch,
 };
 
 /// Derivatives by the changes of the loads in the last increment, and in this one.
@@ -32,27 +33,6 @@ enum Path {
 /// The largest of a field: where it is, and its direction.
 type Largest = Option<(usize, [f64; 2])>;
 
-/// The slip of an open cell, as the mean of that of its neighbours nearer to the contact.
-#[derive(Debug, Clone)]
-struct Mean {
-    cell: usize,
-    /// Derivative of its distance from the edge by its gap.
-    slope: f64,
-    /// Sum of the weights.
-    total: f64,
-    nearer: Vec<Nearer>,
-}
-
-#[derive(Debug, Clone)]
-struct Nearer {
-    cell: usize,
-    weight: f64,
-    slope: f64,
-    /// By how much its slip differs from the mean [length].
-    off: [f64; 2],
-    zone: Zone,
-}
-
 /// The rule in one increment, in the cells of its contact.
 #[derive(Debug, Clone)]
 pub(super) struct Rule {
@@ -61,7 +41,7 @@ pub(super) struct Rule {
     edge: ByLoads,
     slip: Largest,
     shear: Largest,
-    means: Vec<Mean>,
+    coming: SlipThatComes,
     paths: Vec<Path>,
     /// Vectors t, offsets a and moments of touch, packed.
     pub turn: Tangential,
@@ -148,7 +128,7 @@ impl Rule {
             edge: none,
             slip: None,
             shear: None,
-            means: Vec::new(),
+            coming: SlipThatComes::default(),
             paths: vec![Path::Straight; cells],
             turn,
             ahead,
@@ -225,13 +205,11 @@ impl Rule {
             if before.zone[place] == Zone::Slip { at(&before.drift, number(place)) } else { [0.0; 2] }
         };
         let mut coming = SlipOfEdge::new(&edge, &before.zone);
-        let mut any = false;
         for (place, cell) in contact.cells().enumerate() {
             let grid = place_of(cell);
             if before.zone[grid] != Zone::Open || !(edge.moment_of_touch(grid) > 0.0) {
                 continue;
             }
-            any = true;
             let (here, slid) = (at(&before.drift, cell), coming.at(grid, &slip_of));
             let [then, now, ratio, loads, x, y, along_x, along_y] = Slopes::<8>::of_each([
                 former.gap[grid],
@@ -249,30 +227,7 @@ impl Rule {
             self.touch[place] = moment.value;
             self.paths[place] = Path::Entered([ahead[0].by, ahead[1].by, moment.by]);
         }
-        if !any {
-            return;
-        }
-        let slope = |place: [usize; 2]| {
-            let [gap] = Slopes::<1>::of_each([before.gap[place]]);
-            if before.zone[place] == Zone::Open && gap.value > 0.0 { distance(gap).by[0] } else { 0.0 }
-        };
-        let means = coming.means();
-        let mut found = std::collections::BTreeMap::new();
-        for mean in means {
-            found.insert(mean.cell, mean.slip);
-            let nearer = mean.nearer.into_iter().map(|(next, weight)| {
-                let zone = before.zone[next];
-                let there = found.get(&next).copied().unwrap_or_else(|| slip_of(next));
-                let off = [0, 1].map(|axis| there[axis] - mean.slip[axis]);
-                Nearer { cell: number(next), weight, slope: slope(next), off, zone }
-            });
-            let nearer: Vec<Nearer> = nearer.collect();
-            let total: f64 = nearer.iter().map(|next| next.weight).sum();
-            if total > 0.0 {
-                let (cell, slope) = (number(mean.cell), slope(mean.cell));
-                self.means.push(Mean { cell, slope, total, nearer });
-            }
-        }
+        self.coming = SlipThatComes::new(&coming, before);
     }
 
     fn set(&mut self, place: usize, [turn, ahead]: [[f64; 2]; 2]) {
@@ -299,22 +254,7 @@ impl Rule {
             largest.map_or(0.0, |(cell, along)| along[0] * field[0][cell] + along[1] * field[1][cell])
         };
         (found.slip, found.shear) = (largest(self.slip, &before.drift), largest(self.shear, &before.shear));
-        let mut slid = vec![[0.0; 2]; if self.means.is_empty() { 0 } else { before.gap.len() }];
-        for mean in &self.means {
-            let mut sum = [0.0; 2];
-            for next in &mean.nearer {
-                let there = match next.zone {
-                    Zone::Open => slid[next.cell],
-                    Zone::Slip => at(&before.drift, next.cell),
-                    Zone::Stick => [0.0; 2],
-                };
-                let weight = mean.slope * before.gap[mean.cell] - next.slope * before.gap[next.cell];
-                for axis in 0..2 {
-                    sum[axis] += next.weight * there[axis] + weight * next.off[axis];
-                }
-            }
-            slid[mean.cell] = sum.map(|part| part / mean.total);
-        }
+        let slid = self.coming.forward(before);
         for ((place, cell), path) in contact.cells().enumerate().zip(&self.paths) {
             match path {
                 Path::Straight => {}
@@ -354,7 +294,7 @@ impl Rule {
         if self.pace.is_none() {
             return;
         }
-        let mut slid = vec![[0.0; 2]; if self.means.is_empty() { 0 } else { before.gap.len() }];
+        let mut slid = vec![[0.0; 2]; before.gap.len()];
         for ((place, cell), path) in contact.cells().enumerate().zip(&self.paths) {
             let (turn, ahead) = (at(&of.turn, place), at(&of.ahead, place));
             match path {
@@ -386,20 +326,7 @@ impl Rule {
                 }
             }
         }
-        for mean in self.means.iter().rev() {
-            let of = slid[mean.cell].map(|part| part / mean.total);
-            for next in &mean.nearer {
-                let there = of.map(|part| next.weight * part);
-                match next.zone {
-                    Zone::Open => (0..2).for_each(|axis| slid[next.cell][axis] += there[axis]),
-                    Zone::Slip => add(&mut before.drift, next.cell, there),
-                    Zone::Stick => {}
-                }
-                let weight = of[0] * next.off[0] + of[1] * next.off[1];
-                before.gap[mean.cell] += mean.slope * weight;
-                before.gap[next.cell] -= next.slope * weight;
-            }
-        }
+        self.coming.transposed(slid, before);
         for (largest, amount, field) in
             [(self.slip, of.slip, &mut before.drift), (self.shear, of.shear, &mut before.shear)]
         {
@@ -426,12 +353,6 @@ impl Rule {
             count(|path| matches!(path, Path::Entered(_))),
         ]
     }
-}
-
-/// Adds to a cell of a tangential field.
-pub(super) fn add(field: &mut Tangential, cell: usize, [x, y]: [f64; 2]) {
-    field[0][cell] += x;
-    field[1][cell] += y;
 }
 
 /// Product of a row with changes.

@@ -6,13 +6,12 @@ use ndarray::Array2;
 
 use super::cell::MOTIONS;
 use super::change::{Reached, Tangential};
-use super::linearised::{Fields, Operators, displacements, zeros};
-use super::loads::{Load, Prescribed};
-use super::rule::{Cells, Rule};
-use super::scene::{Scene, Snapshot};
-use crate::model::{ContactState, CoulombFriction, LoadStep, Zone};
+use super::linearised::{Fields, zeros};
+use super::loads::Load;
+use super::scene::Scene;
+use crate::model::{CoulombFriction, LoadStep, Zone};
 use crate::plan::Plan;
-use crate::solver::{ContactSet, rate_since_touch};
+use crate::solver::ContactSet;
 
 /// A cell's two numbers.
 pub(super) fn at(field: &Tangential, cell: usize) -> [f64; 2] {
@@ -47,14 +46,14 @@ pub(super) struct Solved {
     pub from: Option<LoadStep>,
     pub load: Option<LoadStep>,
     /// Length over that of the increment before in the loads, where it went on from that.
-    pace: Option<f64>,
+    pub pace: Option<f64>,
     /// Whether the moments of touch in it were known.
     pub knows_touch: bool,
 }
 
 impl Solved {
     /// Bodies that have not touched yet.
-    fn untouched(scene: &Scene<'_>) -> Self {
+    pub fn untouched(scene: &Scene<'_>) -> Self {
         let cells = scene.region.len();
         let tangential = || [vec![0.0; cells], vec![0.0; cells]];
         Self {
@@ -120,108 +119,6 @@ impl Solved {
         let forces = scene.resultants([pressure, x, y]);
         scene.reached(forces, &self.motions, scene.springs())
     }
-}
-
-/// Goes through a history again, increment by increment.
-pub(super) struct Replay<'a> {
-    scene: &'a Scene<'a>,
-    prescribed: Prescribed<'a>,
-    untouched: ContactState,
-    pub start: Solved,
-}
-
-/// What comes after the last increments: what it prescribes, and what was solved; `None` where no load changes.
-pub(super) struct Next {
-    pub load: Load,
-    pub solved: Option<Solved>,
-}
-
-impl<'a> Replay<'a> {
-    pub fn new(scene: &'a Scene<'a>) -> Self {
-        let untouched = ContactState::untouched(scene.grid.cells());
-        Self { scene, prescribed: Prescribed::new(scene), untouched, start: Solved::untouched(scene) }
-    }
-
-    /// The next increment, after `before`, which came from `former`, both `None` where there is none but the start; `state`: the one before.
-    pub fn next(
-        &mut self,
-        (snapshot, state): (&Snapshot, Option<&ContactState>),
-        past: [Option<&Solved>; 2],
-        operators: &mut Operators,
-    ) -> Next {
-        let scene = self.scene;
-        let [before, former] = past.map(|solved| solved.unwrap_or(&self.start));
-        let state = state.unwrap_or(&self.untouched);
-        let reached = before.reached(scene);
-        let load = self.prescribed.next(snapshot.record.stage, (state, &reached), before.load.as_ref());
-        let solved = (!before.stands(&load))
-            .then(|| Solved::new(scene, snapshot, (&load, [before, former]), operators));
-        Next { load, solved }
-    }
-}
-
-impl Solved {
-    fn new(
-        scene: &Scene<'_>,
-        snapshot: &Snapshot,
-        (load, [before, former]): (&Load, [&Self; 2]),
-        operators: &mut Operators,
-    ) -> Self {
-        let Snapshot { record, state } = snapshot;
-        let region = scene.region;
-        let tractions = [&state.pressure, &state.shear[0], &state.shear[1]].map(|field| region.gather(field));
-        let moved = if tractions[0].iter().any(|p| *p > 0.0) {
-            displacements(&mut operators.compliance, operators.frictional, &tractions)
-        } else {
-            zeros(region.len())
-        };
-        let motions = scene.motions(state);
-        let contact = ContactSet::loaded(&tractions[0]);
-        let end_point = record.work.end_point_increments > 0;
-        let rule = Rule::new(scene, (load, end_point), [before, former], (&contact, &[]), Cells::Entered);
-        let mut solved = Self {
-            gap: scene.undeformed.clone(),
-            zone: zones(scene, state),
-            motions,
-            contact,
-            slid: [vec![0.0; region.len()], vec![0.0; region.len()]],
-            drift: [vec![0.0; region.len()], vec![0.0; region.len()]],
-            from: load.from,
-            load: Some(load.step),
-            pace: rule.pace.map(|pace| pace.loads),
-            knows_touch: before.went_on() && rule.pace.is_some_and(|pace| pace.edge.is_some()),
-            displacements: moved,
-            tractions,
-        };
-        for (cell, gap) in solved.gap.iter_mut().enumerate() {
-            let place = scene.places[cell];
-            *gap = *gap + solved.displacements[0][cell] - deep_by(&motions, place);
-            if scene.is_frictional() {
-                let moved = moved_by(&motions, place);
-                for axis in 0..2 {
-                    solved.slid[axis][cell] = moved[axis] - solved.displacements[1 + axis][cell];
-                    solved.drift[axis][cell] = solved.slid[axis][cell] - before.slid[axis][cell];
-                }
-            }
-        }
-        if rule.pace.is_some() {
-            for (place, cell) in solved.contact.cells().enumerate() {
-                if before.zone_of(cell) == Zone::Open {
-                    let ahead = at(&rule.ahead, place);
-                    let [x, y] = rate_since_touch(at(&solved.drift, cell), ahead, rule.touch[place]);
-                    (solved.drift[0][cell], solved.drift[1][cell]) = (x, y);
-                }
-            }
-        }
-        solved
-    }
-}
-
-/// Zones in the region.
-pub(super) fn zones(scene: &Scene<'_>, state: &ContactState) -> Array2<Zone> {
-    let shape = scene.region.shape;
-    let zones = scene.region.gather_map(&state.zone, |zone| *zone);
-    Array2::from_shape_vec(shape, zones).unwrap_or_else(|_| Array2::default(shape))
 }
 
 /// The law of friction in force at a stage, on the part in front of the mirrors.
