@@ -5,7 +5,7 @@ use fret_core::case::Case;
 use fret_core::history::{STEP_COLUMNS, StepRecord, Value};
 use fret_core::plan::Plan;
 use fret_core::run::{Silent, Simulation};
-use fret_core::sensitivity::{Request, Sensitivities, SensitivityError, gradient};
+use fret_core::sensitivity::{Direction, Request, Sensitivities, SensitivityError, gradient};
 use fret_validation::random::Random;
 
 /// A case with names in angle brackets for its numbers.
@@ -27,8 +27,17 @@ pub fn planned(text: &str) -> Plan {
 }
 
 pub fn found(plan: &Plan, of: &[&str], by: &[&str]) -> Result<Sensitivities, SensitivityError> {
+    found_along(plan, of, by, None)
+}
+
+fn found_along(
+    plan: &Plan,
+    of: &[&str],
+    by: &[&str],
+    direction: Option<Direction>,
+) -> Result<Sensitivities, SensitivityError> {
     let owned = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
-    gradient(plan, &Request { of: owned(of), by: owned(by) }, &mut Silent)
+    gradient(plan, &Request { of: owned(of), by: owned(by), direction }, &mut Silent)
 }
 
 impl Written<'_> {
@@ -62,7 +71,9 @@ impl Written<'_> {
             .collect();
         let of: Vec<&str> = names.iter().map(String::as_str).collect();
         let by: Vec<&str> = self.numbers.iter().map(|(_, _, path)| *path).collect();
-        let found = found(&plan, &of, &by).unwrap();
+        let along = |direction| found_along(&plan, &of, &by, Some(direction)).unwrap();
+        let (found, back) = (along(Direction::Forward), along(Direction::Backward));
+        assert_eq!(back.direction, Direction::Backward);
         let mut worst = 0.0_f64;
         for (number, (name, value, _)) in self.numbers.iter().enumerate() {
             let [up, down] = [STEP, -STEP].map(|step| self.columns(columns, Some((number, step))));
@@ -79,6 +90,13 @@ impl Written<'_> {
                     );
                     worst = worst.max(off);
                     assert_eq!(gradient.value, step[place]);
+                    // Both ways solve the same equations to 1e-12; 1e-9 leaves room for their condition, increment after increment.
+                    let back = back.gradients[increment * columns.len() + place].by[number] * value;
+                    let off = (found - back).abs() / (size + found.abs()).max(f64::MIN_POSITIVE);
+                    assert!(
+                        off < 1e-9,
+                        "increment {increment}, {column} by {name}: {found:e}, backwards {back:e}, off {off:.1e}"
+                    );
                 }
             }
         }

@@ -21,7 +21,7 @@ from fretting import analytic, plot
 from fretting._core import __version__
 from fretting._points import Parameter
 from fretting.case_types import Case
-from fretting.differentiating import gradient
+from fretting.differentiating import gradient, vjp
 from fretting.errors import (
     CaseError,
     FrettingError,
@@ -78,4 +78,5 @@ __all__ = [
     "study",
     "sweep",
     "uncertainty",
+    "vjp",
 ]

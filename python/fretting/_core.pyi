@@ -42,6 +42,7 @@ __all__ = [
     "no_slip_punch",
     "no_slip_sphere",
     "plan",
+    "pulled_back",
     "quantile_fractions",
     "rounded_punch",
     "run",
@@ -168,6 +169,12 @@ def gradient(
     by: list[str],
     threads: int | None,
 ) -> list[tuple[str, float, dict[str, float]]]: ...
+def pulled_back(
+    case: Case,
+    weights: list[tuple[str, float]],
+    by: list[str],
+    threads: int | None,
+) -> tuple[float, list[tuple[str, float]]]: ...
 def identify(
     log: tuple[str, bytes],
     case: Case,

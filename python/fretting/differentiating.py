@@ -1,9 +1,11 @@
 """Exact sensitivities: what a result depends on, and how much."""
 
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Mapping
+from typing import Any
 
 from fretting import _case, _core
-from fretting._arguments import texts
+from fretting._arguments import mapping, real, texts
 
 
 def gradient(
@@ -48,3 +50,75 @@ def gradient(
     """
     found = _core.gradient(_case.read(case), texts("of", of), texts("by", by), threads)
     return {name: {"value": value, **derivatives} for name, value, derivatives in found}
+
+
+def vjp(
+    case: _case.CaseLike,
+    weights: Mapping[str, float],
+    *,
+    by: str | Iterable[str] = (),
+    threads: int | None = None,
+) -> dict[str, float]:
+    """Differentiate a weighted sum of results by numbers of a case: pull weights of results back to the numbers.
+
+    One pass backwards through the history, however many results and numbers there are: the product of a vector and the
+    matrix of derivatives that a chain of derivatives asks for (reverse mode).
+
+    Parameters
+    ----------
+    case : path, str or mapping
+        As for :func:`fretting.run`.
+    weights : mapping of str to float
+        The weight of every result, such as the derivatives of a loss by the results.
+    by : str or iterable of str
+        Numbers of the case, as for :func:`gradient`. Default: all there are.
+    threads : int, optional
+        Worker threads. Default: all cores.
+
+    Returns
+    -------
+    dict of str to float
+        The derivative of the sum by each number, by path.
+
+    Raises
+    ------
+    CaseError
+        When the case is refused.
+    ValueError
+        As for :func:`gradient`, and without any weight.
+    RunError
+        As for :func:`gradient`.
+
+    Examples
+    --------
+    >>> import fretting
+    >>> case = {
+    ...     "grid": {"cells": [16, 16], "size": "auto"},
+    ...     "upper": {"rigid": True},
+    ...     "lower": {"substrate": {"young": 210e9, "poisson": 0.3}},
+    ...     "profile": {"sphere": {"radius": 10e-3}},
+    ...     "load": [{"normal_force": 10.0, "increments": 1}],
+    ... }
+    >>> found = fretting.vjp(case, {"max_pressure": 1e-9, "approach": 1e6}, by="profile.sphere.radius")
+    >>> list(found)
+    ['profile.sphere.radius']
+    """
+    return dict(pulled_back(case, weights, by, threads)[1])
+
+
+def pulled_back(
+    case: _case.CaseLike, weights: Mapping[str, float], by: str | Iterable[str], threads: int | None
+) -> tuple[float, list[tuple[str, float]]]:
+    """Return the weighted sum of results and its derivatives."""
+    pairs = [(name, real(f"weights[{name!r}]", weight)) for name, weight in mapping("weights", weights).items()]
+    if not pairs:
+        raise ValueError("weights: of no result; expected such as {'max_pressure': 1.0}")
+    return _core.pulled_back(_case.read(case), pairs, texts("by", by), threads)
+
+
+def value_of(increments: Mapping[str, Any], cycles: Mapping[str, Any], name: str) -> float:
+    """Return a result of a history by its name."""
+    found = re.fullmatch(r"(increments|cycles)\[(\d+)\]\.(\w+)", name)
+    if found is None:
+        return float(increments[name][-1])
+    return float((increments if found[1] == "increments" else cycles)[found[3]][int(found[2])])

@@ -1,15 +1,17 @@
 """The result of a run."""
 
 import json
+import math
 import os
 import shutil
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
 import numpy.typing as npt
 
-from fretting import _core, _dataset, _notebook, fatigue, heat, plot, stress
+from fretting import _core, _dataset, _notebook, differentiating, fatigue, heat, plot, stress
 from fretting._arguments import checked, of_kind, whole
 from fretting._arrays import Reals
 from fretting._meaning import FIELD_NAMES, VECTORS, FieldName, VectorName
@@ -681,6 +683,44 @@ class History:
         0.08 mOhm
         """
         return heat.contact_resistance(self, increment, kind, threads)
+
+    def vjp(
+        self, weights: Mapping[str, float], *, by: str | Iterable[str] = (), threads: int | None = None
+    ) -> dict[str, float]:
+        """Pull weights of results back to the numbers of the case, see :func:`fretting.vjp`.
+
+        The history is run once more: the states of all its increments are needed.
+
+        Parameters
+        ----------
+        weights : mapping of str to float
+            The weight of every result.
+        by : str or iterable of str
+            Numbers of the case. Default: all there are.
+        threads : int, optional
+            Worker threads. Default: all cores.
+
+        Returns
+        -------
+        dict of str to float
+            The derivative of the weighted sum by each number, by path.
+
+        Raises
+        ------
+        ValueError
+            When the case is of a kind that is not covered, or a result or a number not one of it; when this history
+            started from another one.
+        RunError
+            When the linear equations of an increment are not solved.
+        """
+        found, derivatives = differentiating.pulled_back(self.case, weights, by, threads)
+        parts = [weight * differentiating.value_of(self.increments, self.cycles, of) for of, weight in weights.items()]
+        if not math.isclose(found, sum(parts), rel_tol=0.0, abs_tol=1e-6 * max(map(abs, parts))):
+            raise ValueError(
+                "vjp: the case alone has another history than this one, which started from another one; give all stages"
+                " in one case"
+            )
+        return dict(derivatives)
 
     def plot_loop(
         self,

@@ -90,3 +90,76 @@ def test_the_command_gives_the_same(tmp_path: Path) -> None:
     # Hertz: the powers 1/3 of the force and -2/3 of the radius, within the error of the grid.
     assert of["logarithmic_derivatives"]["load[0].normal_force"] == pytest.approx(1 / 3, abs=2e-3)
     assert of["logarithmic_derivatives"]["profile.sphere.radius"] == pytest.approx(-2 / 3, abs=2e-3)
+
+
+def test_weights_of_results_are_pulled_back_to_the_numbers() -> None:
+    of, by = ["max_pressure", "cycles[0].dissipated_energy", "increments[5].shift_x"], [*MODULI, *FORCES]
+    matrix = fretting.gradient(CASE, of=of, by=by)
+    weights = dict(zip(of, [1e-9, 2e3, -5e5], strict=True))
+    pulled = fretting.vjp(CASE, weights, by=by)
+    assert list(pulled) == by
+    for path in by:
+        parts = [weight * matrix[name][path] for name, weight in weights.items()]
+        # Each is solved to a tenth of the tolerance of the case, 1e-11.
+        assert pulled[path] == pytest.approx(sum(parts), abs=1e-8 * max(map(abs, parts)))
+    assert fretting.run(CASE).vjp(weights, by=by) == pulled
+    with pytest.raises(ValueError, match="of no result"):
+        fretting.vjp(CASE, {})
+
+
+def test_a_history_that_started_from_another_is_not_pulled_back() -> None:
+    first = fretting.run({**CASE, "load": CASE["load"][:1]})
+    rub = {"normal_force": 12.0, "tangential_force": [1.5, 0.0], "increments": 4}
+    second = fretting.run({**CASE, "load": [rub]}, start=first)
+    # The case alone, from bodies apart, lets both forces grow together and dissipates less.
+    with pytest.raises(ValueError, match="started from another one"):
+        second.vjp({"dissipated_energy": 1.0})
+
+
+# A function of the numbers whose derivative the chain rule gives from those of the results. Numbers that went through a
+# logarithm differ in their last digit, and runs of those by a tenth of the tolerance of the case, 1e-10.
+CHAIN_OF = ["max_pressure", "approach"]
+CHAIN_BY = ["lower.coatings[0].young", "profile.sphere.radius"]
+
+
+def expected_chain() -> tuple[float, list[float]]:
+    found = fretting.gradient(CASE, of=CHAIN_OF, by=CHAIN_BY)
+    pressure, approach = (found[name] for name in CHAIN_OF)
+    values = {"lower.coatings[0].young": 400e9, "profile.sphere.radius": 10e-3}
+    # f = (p / 1e9)^2 + 1e6 approach, by the logarithms of the numbers.
+    by = [(2e-18 * pressure["value"] * pressure[path] + 1e6 * approach[path]) * value for path, value in values.items()]
+    return (pressure["value"] / 1e9) ** 2 + 1e6 * approach["value"], by
+
+
+def test_jax_differentiates_through_a_history() -> None:
+    jax = pytest.importorskip("jax")
+    from fretting.jax import results
+
+    function = results(CASE, of=CHAIN_OF, by=CHAIN_BY)
+
+    def loss(logarithms: Any) -> Any:
+        pressure, approach = function(jax.numpy.exp(logarithms))
+        return (pressure / 1e9) ** 2 + 1e6 * approach
+
+    with jax.enable_x64(True):
+        at = jax.numpy.log(jax.numpy.array([400e9, 10e-3]))
+        value, by = jax.jit(jax.value_and_grad(loss))(at)
+        expected, expected_by = expected_chain()
+        assert float(value) == pytest.approx(expected, rel=1e-9)
+        assert float(loss(at)) == pytest.approx(expected, rel=1e-9)
+        assert [float(part) for part in by] == pytest.approx(expected_by, rel=1e-7)
+
+
+def test_torch_differentiates_through_a_history() -> None:
+    torch = pytest.importorskip("torch")
+    from fretting.torch import results
+
+    function = results(CASE, of=CHAIN_OF, by=CHAIN_BY)
+    logarithms = torch.tensor([400e9, 10e-3], dtype=torch.float64).log().requires_grad_()
+    pressure, approach = function(logarithms.exp())
+    loss = (pressure / 1e9) ** 2 + 1e6 * approach
+    loss.backward()
+    expected, expected_by = expected_chain()
+    assert loss.item() == pytest.approx(expected, rel=1e-9)
+    assert logarithms.grad.tolist() == pytest.approx(expected_by, rel=1e-7)
+    assert function(logarithms.detach().exp())[0].item() == pytest.approx(pressure.item(), rel=1e-9)

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use fret_core::sensitivity::{self, Request, SensitivityError};
+use fret_core::plan::Plan;
+use fret_core::run::Observer;
+use fret_core::sensitivity::{self, Request, Sensitivities, SensitivityError};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::{PyErr, PyResult, Python, pyfunction};
 
@@ -23,24 +25,50 @@ pub fn gradient(
     by: Vec<String>,
     threads: Threads,
 ) -> PyResult<Found> {
-    let pool = threads::pool(threads)?;
-    let request = Request { of, by };
-    let plan = py.detach(|| pool.install(|| case.planned())).map_err(|error| refused(&error))?;
-    let (answer, interruption): (_, Option<PyErr>) = py.detach(|| {
-        listen(&plan, None, |reporter| {
-            let mut guest = reporter.silently();
-            pool.install(|| sensitivity::gradient(&plan, &request, &mut guest))
-        })
-    });
-    if let Some(error) = interruption {
-        return Err(error);
-    }
-    let found = answer.map_err(ended)?;
+    let request = Request { of, by, direction: None };
+    let found = found(py, case, threads, |plan, guest| sensitivity::gradient(plan, &request, guest))?;
     let paths: Vec<String> = found.parameters.iter().map(|entry| entry.path().to_owned()).collect();
     let of = |gradient: sensitivity::Gradient| {
         (gradient.of, gradient.value, paths.iter().cloned().zip(gradient.by).collect())
     };
     Ok(found.gradients.into_iter().map(of).collect())
+}
+
+/// A sum of results, each times its weight, and its derivatives by numbers of a case; by all numbers where none is named.
+#[pyfunction]
+pub fn pulled_back(
+    py: Python<'_>,
+    case: &Case,
+    weights: Vec<(String, f64)>,
+    by: Vec<String>,
+    threads: Threads,
+) -> PyResult<(f64, Vec<(String, f64)>)> {
+    let found = found(py, case, threads, |plan, guest| sensitivity::pulled_back(plan, &weights, &by, guest))?;
+    let paths = found.parameters.iter().map(|entry| entry.path().to_owned());
+    let value = found.gradients.iter().map(|gradient| gradient.value).sum();
+    let derivatives = found.gradients.iter().flat_map(|gradient| gradient.by.iter().copied());
+    Ok((value, paths.zip(derivatives).collect()))
+}
+
+/// What derivatives a case has, found beside Python.
+fn found(
+    py: Python<'_>,
+    case: &Case,
+    threads: Threads,
+    find: impl Fn(&Plan, &mut dyn Observer) -> Result<Sensitivities, SensitivityError> + Sync,
+) -> PyResult<Sensitivities> {
+    let pool = threads::pool(threads)?;
+    let plan = py.detach(|| pool.install(|| case.planned())).map_err(|error| refused(&error))?;
+    let (answer, interruption): (_, Option<PyErr>) = py.detach(|| {
+        listen(&plan, None, |reporter| {
+            let mut guest = reporter.silently();
+            pool.install(|| find(&plan, &mut guest))
+        })
+    });
+    match interruption {
+        Some(error) => Err(error),
+        None => answer.map_err(ended),
+    }
 }
 
 #[expect(clippy::needless_pass_by_value, reason = "for `map_err`")]

@@ -47,7 +47,7 @@ mod _core {
     #[pymodule_export]
     use crate::fatigue::{coating_fracture, crack, fatigue};
     #[pymodule_export]
-    use crate::gradient::gradient;
+    use crate::gradient::{gradient, pulled_back};
     #[pymodule_export]
     use crate::history::{History, vocabulary};
     #[pymodule_export]

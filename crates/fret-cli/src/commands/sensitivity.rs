@@ -3,7 +3,9 @@
 use std::fmt::Write;
 
 use fret_core::plan::Plan;
-use fret_core::sensitivity::{Gradient, NearEvents, Request, Sensitivities, SensitivityError, gradient};
+use fret_core::sensitivity::{
+    Direction, Gradient, NearEvents, Request, Sensitivities, SensitivityError, gradient,
+};
 use serde_json::{Map, Value, json};
 
 use crate::arguments::SensitivityArguments;
@@ -25,7 +27,7 @@ pub fn sensitivity(arguments: &SensitivityArguments, as_json: bool) -> Result<()
     interrupt::listen();
     let pool = threads::pool(threads::asked(arguments.threads))?;
     let of = if arguments.of.is_empty() { usual_results(&plan) } else { arguments.of.clone() };
-    let request = Request { of, by: arguments.by.clone() };
+    let request = Request { of, by: arguments.by.clone(), direction: None };
     let found = pool.install(|| gradient(&plan, &request, &mut Listener)).map_err(refused)?;
     if as_json { terminal::answer_in_json(&record(&found)) } else { terminal::answer(&table(&found)) }
 }
@@ -76,7 +78,14 @@ fn record(found: &Sensitivities) -> Value {
     let near = found.near_events.map(
         |near| json!({ "increment": near.increment, "cells": near.cells, "contact_cells": near.contact }),
     );
-    json!({ "status": "computed", "parameters": parameters, "of": gradients, "near_a_change_of_state": near })
+    let direction = if found.direction == Direction::Backward { "backward" } else { "forward" };
+    json!({
+        "status": "computed",
+        "parameters": parameters,
+        "of": gradients,
+        "near_a_change_of_state": near,
+        "direction": direction,
+    })
 }
 
 /// The answer for a person: one table a result, its parameters by the size of their effect.
@@ -106,7 +115,11 @@ fn table(found: &Sensitivities) -> String {
         }
         text.push('\n');
     }
-    text.push_str("d ln / d ln: by how many per cent the result changes when the number changes by one; on the grid of the case");
+    text.push_str("d ln / d ln: by how many per cent the result changes when the number changes by one; on the grid of the case\n");
+    text.push_str(match found.direction {
+        Direction::Forward => "differentiated forward: one linear problem for each increment and number",
+        Direction::Backward => "differentiated backwards: one linear problem for each increment and result",
+    });
     if let Some(NearEvents { increment, cells, contact }) = found.near_events {
         let _ = write!(
             text,

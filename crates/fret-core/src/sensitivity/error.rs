@@ -41,14 +41,14 @@ pub enum SensitivityError {
     },
     /// A linear problem that was not solved.
     #[error(
-        "increment {increment}, derivative by {path}: residual {reached:.1e} of the linear equations, required {target:.0e}: the solution may change \
+        "increment {increment}, derivative {of}: residual {reached:.1e} of the linear equations, required {target:.0e}: the solution may change \
          abruptly here, as where a contact begins to slide; another load, or more increments, may avoid that"
     )]
     NotSolved {
         /// Number of the increment, from 0.
         increment: usize,
-        /// The parameter.
-        path: String,
+        /// By which number, or of which result.
+        of: String,
         /// What was reached.
         reached: f64,
         /// What is required.

@@ -1,8 +1,9 @@
 //! Cells that are about to change their state: there the derivatives on either side differ.
 
 use super::cell::Shear;
-use super::scene::{Scene, Solved};
-use super::track::{Known, index};
+use super::contact::Contact;
+use super::scene::Scene;
+use super::solved::{Solved, deep_by};
 use crate::fields::length;
 use crate::model::Zone;
 
@@ -23,19 +24,19 @@ pub struct NearEvents {
 /// Cells of an increment within a millionth of opening, touching, slipping or coming to rest. `own`: influence of a cell on itself, normal and
 /// tangential [length/pressure].
 pub(super) fn near_events(
-    (scene, solved): (&Scene<'_>, &Solved<'_>),
-    known: &Known,
+    (scene, solved, increment): (&Scene<'_>, &Solved, usize),
+    contact: &Contact<'_>,
     own: [f64; 2],
 ) -> NearEvents {
     let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
     let pressure = largest(&mut solved.tractions[0].iter().copied());
-    let bound = largest(&mut known.bounds.iter().map(|bound| bound.value));
+    let bound = largest(&mut contact.bounds.iter().copied());
     let mut cells = 0;
     for (number, cell) in solved.contact.cells().enumerate() {
         let opens = solved.tractions[0][cell] < NEAR * pressure;
         let shear = [solved.tractions[1][cell], solved.tractions[2][cell]];
-        let here = known.bounds[number].value;
-        let changes = match (solved.zone[index(scene, cell)], known.cells[number].shear) {
+        let here = contact.bounds[number];
+        let changes = match (solved.zone_of(cell), contact.cells[number].shear) {
             _ if bound <= 0.0 => false,
             (Zone::Stick, _) => length(shear) > 0.0 && here - length(shear) < NEAR * bound,
             (_, Shear::Turns { compliance, .. }) => compliance * here < NEAR * own[1] * bound,
@@ -43,14 +44,11 @@ pub(super) fn near_events(
         };
         cells += usize::from(opens || changes);
     }
-    let touches = |cell: &usize| {
-        let at = index(scene, *cell);
-        let [x, y] = scene.places[*cell];
-        let [approach, tilt_x, tilt_y, ..] = solved.motions;
-        let deep = approach + tilt_x * x + tilt_y * y;
-        let gap = scene.undeformed[at] + solved.displacements[0][*cell] - deep;
-        solved.zone[at] == Zone::Open && gap < NEAR * own[0] * pressure
+    let touches = |(cell, undeformed): &(usize, &f64)| {
+        let deep = deep_by(&solved.motions, scene.places[*cell]);
+        let gap = *undeformed + solved.displacements[0][*cell] - deep;
+        solved.zone_of(*cell) == Zone::Open && gap < NEAR * own[0] * pressure
     };
-    cells += (0..scene.region.len()).filter(touches).count();
-    NearEvents { increment: solved.record.increment, cells, contact: solved.contact.len() }
+    cells += scene.undeformed.iter().enumerate().filter(touches).count();
+    NearEvents { increment, cells, contact: solved.contact.len() }
 }

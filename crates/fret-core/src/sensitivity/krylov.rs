@@ -6,8 +6,10 @@ use crate::solver::{ContactVector, Gmres};
 
 /// Krylov steps at the most.
 const MOST_STEPS: usize = 400;
-/// Times that what is left over is solved for again.
-const MOST_ROUNDS: usize = 3;
+/// Times that what is left over is solved for, again and again.
+const MOST_ROUNDS: usize = 6;
+/// Relative residual that a round in single precision is taken to.
+const SINGLE: f64 = 3e-5;
 
 /// A linear problem with an approximate inverse.
 pub(super) trait LinearProblem {
@@ -15,6 +17,10 @@ pub(super) trait LinearProblem {
     fn apply(&mut self, unknowns: &[f64], equations: &mut [f64]);
     /// Unknowns that nearly have this left side.
     fn invert(&mut self, equations: &[f64], unknowns: &mut [f64]);
+    /// Whether single precision may do from now on in [`apply`](Self::apply); says whether it does.
+    fn hurry(&mut self, _may: bool) -> bool {
+        false
+    }
 }
 
 /// Solves a problem to a relative residual `target`; with it the residual that was reached, evaluated with the solution.
@@ -29,17 +35,30 @@ pub(super) fn solve(problem: &mut impl LinearProblem, right: &[f64], target: f64
     }
     let mut left = right.to_vec();
     let mut reached = 1.0;
+    let mut may_hurry = true;
     for _ in 0..MOST_ROUNDS {
-        let step = krylov(problem, &left, target / reached);
+        let hurries = problem.hurry(may_hurry);
+        let aim = if hurries { SINGLE.max(target / reached) } else { target / reached };
+        let step = krylov(problem, &left, aim);
+        problem.hurry(false);
         add_scaled(&mut solution, 1.0, &step);
         problem.apply(&solution, &mut left);
         for (left, right) in left.iter_mut().zip(right) {
             *left = right - *left;
         }
         let now = norm(&left) / size;
+        // Where single precision does not serve, double precision goes on.
+        may_hurry = now < 0.01 * reached;
         if !(now < reached) {
             add_scaled(&mut solution, -1.0, &step);
-            break;
+            if !hurries {
+                break;
+            }
+            problem.apply(&solution, &mut left);
+            for (left, right) in left.iter_mut().zip(right) {
+                *left = right - *left;
+            }
+            continue;
         }
         reached = now;
         if reached <= target {

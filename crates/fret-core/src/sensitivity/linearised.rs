@@ -1,6 +1,6 @@
 //! The equations of a solved increment, linearised on the sets that its solution has: cells in contact keep their gap closed, cells that
 //! stick their slip, the shear of those that slip follows the friction bound and turns with the slip; resultants and motions that are prescribed
-//! stay so. Left sides alone: what drives them stands in `drive.rs`.
+//! stay so. Left sides alone: what they ask for stands in `contact.rs`, their transpose in `transposed.rs`.
 //!
 //! Unknown are the changes of the pressure `p` in contact, of shear `q`, and of the rigid motions. In slip
 //! `dq = (b' dp) e + dt n` with the direction `e` of the shear, `n` across it; what is unknown is `dt`.
@@ -13,7 +13,7 @@
 use super::cell::{Cell, MOTIONS, Prescribed, Shear};
 use super::krylov::LinearProblem;
 use crate::compliance::{SpectralCompliance, SurfaceCompliance};
-use crate::fields::add_scaled;
+use crate::fields::{add_scaled, norm};
 use crate::solver::{ContactSet, Preconditioner, SlipWeights};
 
 /// Operators on the cells of the region of a history.
@@ -51,17 +51,19 @@ pub(super) fn displacements(
 
 /// The linearised equations of one increment.
 pub(super) struct Linearised<'a> {
-    operators: &'a mut Operators,
-    contact: &'a ContactSet,
-    cells: &'a [Cell],
-    prescribed: [Prescribed; MOTIONS],
-    weights: SlipWeights<f64>,
+    pub(super) operators: &'a mut Operators,
+    pub(super) contact: &'a ContactSet,
+    pub(super) cells: &'a [Cell],
+    pub(super) prescribed: [Prescribed; MOTIONS],
+    pub(super) weights: SlipWeights<f64>,
     /// Influence of a cell on itself, normal and tangential: the unit of the equations [length/pressure].
-    own: [f64; 2],
+    pub(super) own: [f64; 2],
     /// What the approximate inverse makes of each motion, and the small matrix of motions against their rows.
-    bordered: Vec<Vec<f64>>,
-    schur: [[f64; MOTIONS]; MOTIONS],
-    region: usize,
+    pub(super) bordered: Vec<Vec<f64>>,
+    pub(super) schur: [[f64; MOTIONS]; MOTIONS],
+    pub(super) region: usize,
+    /// Whether displacements are found in single precision, where they can be.
+    hurries: bool,
 }
 
 impl<'a> Linearised<'a> {
@@ -90,6 +92,7 @@ impl<'a> Linearised<'a> {
             bordered: Vec::new(),
             schur: [[0.0; MOTIONS]; MOTIONS],
             region,
+            hurries: false,
         };
         if !cells.is_empty() {
             problem.border();
@@ -100,6 +103,32 @@ impl<'a> Linearised<'a> {
     /// Displacements of tractions on all cells of the region [length].
     pub fn displacements(&mut self, tractions: &Fields) -> Fields {
         displacements(&mut self.operators.compliance, self.operators.frictional, tractions)
+    }
+
+    /// Displacements of tractions in the cells of the contact, both packed; in single precision where that is wanted [length].
+    pub(super) fn moved(&mut self, tractions: &Fields) -> Fields {
+        let mut moved = zeros(self.cells.len());
+        let Operators { compliance, preconditioner, frictional } = &mut *self.operators;
+        let from = tractions.each_ref().map(Vec::as_slice);
+        let mut to = moved.each_mut().map(Vec::as_mut_slice);
+        if !*frictional {
+            preconditioner.fields::<f64>().carry(&from[..1], &mut to[..1], [1.0; 2], |from, to| {
+                compliance.normal(from[0], to[0]);
+            });
+            return moved;
+        }
+        if let Some(mut single) = self.hurries.then(|| compliance.full_single()).flatten() {
+            let size = from.iter().map(|part| norm(part)).fold(0.0, f64::max);
+            let unit = if size > 0.0 { size } else { 1.0 };
+            let factors = [unit, unit * single.unit()];
+            preconditioner.fields::<f32>().carry(&from, &mut to, factors, |from, to| single.apply(from, to));
+            return moved;
+        }
+        preconditioner.fields::<f64>().carry(&from, &mut to, [1.0; 2], |from, to| {
+            let [normal, x, y] = to else { return };
+            compliance.full([from[0], from[1], from[2]], [normal, x, y]);
+        });
+        moved
     }
 
     /// How many unknowns there are.
@@ -178,12 +207,12 @@ impl<'a> Linearised<'a> {
     }
 
     /// Weight of the equation of a cell that slips: then a residual means a traction.
-    fn slip_weight(&self, compliance: f64) -> f64 {
+    pub(super) fn slip_weight(&self, compliance: f64) -> f64 {
         1.0 / (1.0 + compliance / self.own[1])
     }
 
     /// Weight of the equation of a motion.
-    fn weight_of(&self, motion: usize) -> f64 {
+    pub(super) fn weight_of(&self, motion: usize) -> f64 {
         match self.prescribed[motion] {
             Prescribed::Motion | Prescribed::FarEnd(_) => 1.0 / self.own[0],
             Prescribed::Resultant => 1.0 / self.cells.len() as f64,
@@ -191,7 +220,7 @@ impl<'a> Linearised<'a> {
     }
 
     /// Left sides of what is prescribed.
-    fn prescribed_rows(&self, resultants: [f64; MOTIONS], motions: &[f64], to: &mut [f64]) {
+    pub(super) fn prescribed_rows(&self, resultants: [f64; MOTIONS], motions: &[f64], to: &mut [f64]) {
         for motion in 0..MOTIONS {
             let moved = motions[motion];
             to[motion] = match self.prescribed[motion] {
@@ -263,29 +292,38 @@ impl<'a> Linearised<'a> {
         }
     }
 
-    /// Prepares the border: motions, and what is prescribed of them.
-    fn border(&mut self) {
-        let n = self.cells.len();
-        for motion in 0..MOTIONS {
-            let mut moved = zeros(n);
-            for (place, cell) in self.cells.iter().enumerate() {
-                let mode = cell.modes()[motion];
-                for part in 0..3 {
-                    moved[part][place] = -mode[part] * self.own[0];
-                }
+    /// What motions make of the rows of the cells.
+    fn rows_of_motions(&self, amounts: &[f64; MOTIONS]) -> Vec<f64> {
+        let moved = amounts.map(|amount| -amount * self.own[0]);
+        let mut by_motions = zeros(self.cells.len());
+        for (place, cell) in self.cells.iter().enumerate() {
+            for (part, moved) in cell.moved(&moved).into_iter().enumerate() {
+                by_motions[part][place] = moved;
             }
-            let mut equations = vec![0.0; self.len()];
-            self.cell_rows(&moved, &vec![0.0; self.len()], &mut equations);
-            let mut inverse = vec![0.0; self.len()];
-            self.invert_cells(&equations, &mut inverse);
-            let resultants = self.resultants(&self.tractions(&inverse));
-            let mut unit = [0.0; MOTIONS];
-            unit[motion] = 1.0;
-            let (mut own, mut through) = ([0.0; MOTIONS], [0.0; MOTIONS]);
-            self.prescribed_rows([0.0; MOTIONS], &unit, &mut own);
-            self.prescribed_rows(resultants, &[0.0; MOTIONS], &mut through);
-            for row in 0..MOTIONS {
-                self.schur[row][motion] = own[row] - through[row];
+        }
+        let mut rows = vec![0.0; self.len()];
+        self.cell_rows(&by_motions, &vec![0.0; self.len()], &mut rows);
+        rows
+    }
+
+    /// Prepares the border: motions that follow from resultants, and their rows. What is prescribed of the others they are.
+    fn border(&mut self) {
+        for motion in 0..MOTIONS {
+            self.schur[motion][motion] = 1.0;
+            let mut inverse = Vec::new();
+            if self.prescribed[motion] != Prescribed::Motion {
+                let mut unit = [0.0; MOTIONS];
+                unit[motion] = 1.0;
+                let equations = self.rows_of_motions(&unit);
+                inverse.resize(self.len(), 0.0);
+                self.invert_cells(&equations, &mut inverse);
+                let resultants = self.resultants(&self.tractions(&inverse));
+                let (mut own, mut through) = ([0.0; MOTIONS], [0.0; MOTIONS]);
+                self.prescribed_rows([0.0; MOTIONS], &unit, &mut own);
+                self.prescribed_rows(resultants, &[0.0; MOTIONS], &mut through);
+                for row in 0..MOTIONS {
+                    self.schur[row][motion] = own[row] - through[row];
+                }
             }
             self.bordered.push(inverse);
         }
@@ -295,9 +333,9 @@ impl<'a> Linearised<'a> {
 impl LinearProblem for Linearised<'_> {
     fn apply(&mut self, unknowns: &[f64], equations: &mut [f64]) {
         let n = self.cells.len();
-        let (tractions, motions) = self.parted(unknowns);
-        let moved = self.displacements(&tractions);
-        let mut moved = moved.map(|field| self.contact.packed(&field));
+        let tractions = self.tractions(unknowns);
+        let motions = std::array::from_fn(|motion| unknowns[3 * n + motion] * self.own[0]);
+        let mut moved = self.moved(&tractions);
         for (place, cell) in self.cells.iter().enumerate() {
             let by_motions = cell.moved(&motions);
             for part in 0..3 {
@@ -305,20 +343,33 @@ impl LinearProblem for Linearised<'_> {
             }
         }
         self.cell_rows(&moved, unknowns, equations);
-        let resultants = self.resultants(&tractions.map(|field| self.contact.packed(&field)));
+        let resultants = self.resultants(&tractions);
         self.prescribed_rows(resultants, &unknowns[3 * n..], &mut equations[3 * n..]);
+    }
+
+    fn hurry(&mut self, may: bool) -> bool {
+        self.hurries = may && self.operators.compliance.full_single().is_some();
+        self.hurries
     }
 
     fn invert(&mut self, equations: &[f64], unknowns: &mut [f64]) {
         let n = self.cells.len();
-        self.invert_cells(equations, unknowns);
+        let is_known = |motion: usize| self.prescribed[motion] == Prescribed::Motion;
+        let known: [f64; MOTIONS] =
+            std::array::from_fn(|motion| if is_known(motion) { equations[3 * n + motion] } else { 0.0 });
+        let mut left = equations.to_vec();
+        if known != [0.0; MOTIONS] {
+            add_scaled(&mut left[..3 * n], -1.0, &self.rows_of_motions(&known)[..3 * n]);
+        }
+        self.invert_cells(&left, unknowns);
         unknowns[3 * n..].fill(0.0);
         let resultants = self.resultants(&self.tractions(unknowns));
         let mut through = [0.0; MOTIONS];
         self.prescribed_rows(resultants, &[0.0; MOTIONS], &mut through);
         let right = std::array::from_fn(|motion| equations[3 * n + motion] - through[motion]);
         let amounts = solved(self.schur, right);
-        for (amount, inverse) in amounts.iter().zip(&self.bordered) {
+        for (amount, inverse) in amounts.iter().zip(&self.bordered).filter(|(_, inverse)| !inverse.is_empty())
+        {
             add_scaled(&mut unknowns[..3 * n], -amount, &inverse[..3 * n]);
         }
         unknowns[3 * n..].copy_from_slice(&amounts);
@@ -326,7 +377,7 @@ impl LinearProblem for Linearised<'_> {
 }
 
 /// Solves a small system by elimination with exchange of rows; an unknown that nothing tells is zero.
-fn solved(mut a: [[f64; MOTIONS]; MOTIONS], mut b: [f64; MOTIONS]) -> [f64; MOTIONS] {
+pub(super) fn solved(mut a: [[f64; MOTIONS]; MOTIONS], mut b: [f64; MOTIONS]) -> [f64; MOTIONS] {
     for m in 0..MOTIONS {
         let pivot =
             (m..MOTIONS).fold(m, |best, row| if a[row][m].abs() > a[best][m].abs() { row } else { best });

@@ -1,134 +1,152 @@
-//! What a history prescribes, increment by increment, with its derivatives by one parameter.
+//! What a history prescribes, increment by increment, and how it changes: linear in the numbers of its stages and in where these start.
 
 use std::mem::discriminant;
 
-use super::parameter::Parameter;
+use super::change::{Change, Reached};
 use super::scene::Scene;
 use crate::case::{Stage, StageControl};
-use crate::fields::Dual;
 use crate::model::controls::FREEDOMS;
 use crate::model::stage::Path;
 use crate::model::{ContactState, Control, LoadStep};
 
-/// A load with its derivatives.
-#[derive(Debug, Clone, Copy)]
+/// Where a control of a kind is among what a degree of freedom has reached.
+fn place_of(control: Control) -> usize {
+    match control {
+        Control::Force(_) => 0,
+        Control::Motion(_) => 1,
+        Control::FarEnd(_) => 2,
+    }
+}
+
+/// The control of a kind that prescribes what was reached.
+fn reached_like(control: Control, reached: [f64; 3]) -> Control {
+    let value = reached[place_of(control)];
+    match control {
+        Control::Force(_) => Control::Force(value),
+        Control::Motion(_) => Control::Motion(value),
+        Control::FarEnd(_) => Control::FarEnd(value),
+    }
+}
+
+/// A load with controls of the kinds of another: where a kind is another one, what has been reached; with it, for each degree of freedom, whether
+/// it was so.
+fn of_kinds(
+    load: &LoadStep,
+    kinds: &[Control; FREEDOMS],
+    freedoms: std::ops::Range<usize>,
+    reached: &Reached,
+) -> (LoadStep, [Option<usize>; FREEDOMS]) {
+    let mut controls = load.controls();
+    let mut taken = [None; FREEDOMS];
+    for freedom in freedoms {
+        if discriminant(&controls[freedom]) != discriminant(&kinds[freedom]) {
+            controls[freedom] = reached_like(kinds[freedom], reached[freedom]);
+            taken[freedom] = Some(place_of(kinds[freedom]));
+        }
+    }
+    (LoadStep::of(controls), taken)
+}
+
+/// What a history has prescribed so far, of the whole contact.
+pub(super) struct Prescribed<'a> {
+    scene: &'a Scene<'a>,
+    held: LoadStep,
+    start: LoadStep,
+    /// The stage at work, and how many of its increments have been.
+    stage: Option<usize>,
+    increments: usize,
+}
+
+/// What an increment prescribes, and what that depends on.
+#[derive(Debug, Clone)]
 pub(super) struct Load {
+    /// Of the part in front of the mirrors: at the end, and at the start, in controls of the same kinds; `None` before the first.
     pub step: LoadStep,
-    pub change: [f64; FREEDOMS],
+    pub from: Option<LoadStep>,
+    pub stage: usize,
+    /// Whether the stage begins.
+    pub begins: bool,
+    /// At the start of a stage: what is taken from what was reached.
+    taken: [Option<usize>; FREEDOMS],
+    /// The same of the start of the increment.
+    taken_before: [Option<usize>; FREEDOMS],
+    /// Derivatives of the load by that at the start of the stage and by the number of its control.
+    keeps: [f64; FREEDOMS],
+    own: [f64; FREEDOMS],
+    /// Share of the part in front of the mirrors.
+    share: [f64; FREEDOMS],
+    copies: f64,
 }
 
-/// Where a degree of freedom is.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Reached {
-    /// Resultant of the whole contact.
-    pub force: Dual,
-    /// Rigid motion.
-    pub motion: Dual,
-    /// Motion of the far end of the spring.
-    pub far_end: Dual,
-}
-
-impl Reached {
-    /// The number of the same kind as a control's.
-    fn like(&self, control: Control) -> (Control, f64) {
-        match control {
-            Control::Force(_) => (Control::Force(self.force.value), self.force.change),
-            Control::Motion(_) => (Control::Motion(self.motion.value), self.motion.change),
-            Control::FarEnd(_) => (Control::FarEnd(self.far_end.value), self.far_end.change),
-        }
-    }
-}
-
-/// Normal, tangential along x and y, about z, tilts.
-pub(super) type AllReached = [Reached; 6];
-
-impl Load {
-    /// Nothing prescribed yet.
-    pub const FREE: Self = Self { step: LoadStep::FREE, change: [0.0; FREEDOMS] };
-
-    /// Its numbers with their derivatives.
-    pub fn duals(&self) -> [Dual; FREEDOMS] {
-        let controls = self.step.controls();
-        std::array::from_fn(|freedom| Dual::new(controls[freedom].value(), self.change[freedom]))
+impl<'a> Prescribed<'a> {
+    /// Nothing yet.
+    pub fn new(scene: &'a Scene<'a>) -> Self {
+        Self { scene, held: LoadStep::FREE, start: LoadStep::FREE, stage: None, increments: 0 }
     }
 
-    /// Change to another load of the same kinds.
-    pub fn change_to(&self, other: &Self) -> Option<[Dual; FREEDOMS]> {
-        self.step.change_to(&other.step)?;
-        let (from, to) = (self.duals(), other.duals());
-        Some(std::array::from_fn(|freedom| to[freedom] - from[freedom]))
-    }
-
-    /// The same with controls of the kinds of another load: what they would have prescribed to reach the same state.
-    #[must_use]
-    pub fn of_kinds(&self, kinds: &LoadStep, freedoms: std::ops::Range<usize>, reached: &AllReached) -> Self {
-        let mut controls = self.step.controls();
-        let mut change = self.change;
-        for freedom in freedoms {
-            let wanted = kinds.controls()[freedom];
-            if discriminant(&controls[freedom]) != discriminant(&wanted) {
-                (controls[freedom], change[freedom]) = reached[freedom].like(wanted);
+    /// Goes on by an increment of a stage, from a state, what that has reached, and the last load of the part.
+    pub fn next(
+        &mut self,
+        stage: usize,
+        (state, reached): (&ContactState, &Reached),
+        last: Option<&LoadStep>,
+    ) -> Load {
+        let plan = self.scene.plan;
+        let given = &plan.case.stages[stage];
+        let begins = self.stage != Some(stage);
+        self.increments = if begins { 1 } else { self.increments + 1 };
+        self.stage = Some(stage);
+        let mut taken = [None; FREEDOMS];
+        if begins {
+            let mut kinds = self.held.controls();
+            for (kind, control) in kinds.iter_mut().zip(given.by_freedom()) {
+                if let Some(control) = control {
+                    *kind = control.prescribing(0.0);
+                }
             }
+            (self.start, taken) = of_kinds(&self.held, &kinds, 0..reached.len(), reached);
         }
-        Self { step: LoadStep::of(controls), change }
-    }
-
-    /// Where a stage starts after these loads are held.
-    #[must_use]
-    pub fn at_start_of(&self, stage: &Stage, reached: &AllReached) -> Self {
-        let mut kinds = self.step.controls();
-        for (kind, control) in kinds.iter_mut().zip(stage.by_freedom()) {
-            if let Some(control) = control {
-                *kind = control.prescribing(0.0);
-            }
+        self.held = given.load(&self.start, self.increments);
+        let (keeps, own) = slopes(given, self.increments);
+        let symmetry = plan.symmetry;
+        let step = if symmetry.any() { symmetry.part_of_load(&self.held, state) } else { self.held };
+        let copies = symmetry.copies() as f64;
+        let (whole, part) = (self.held.controls(), step.controls());
+        let share = std::array::from_fn(|freedom| match (whole[freedom], part[freedom]) {
+            // Bulk stresses are no forces of a part.
+            (Control::Force(_), Control::Force(_)) if freedom < 6 => 1.0 / copies,
+            (whole, part) if discriminant(&whole) == discriminant(&part) => 1.0,
+            _ => 0.0, // the symmetry forbids it
+        });
+        let mut of_part = *reached;
+        for [force, ..] in &mut of_part {
+            *force /= copies;
         }
-        self.of_kinds(&LoadStep::of(kinds), 0..reached.len(), reached)
-    }
-
-    /// At the end of increment `k` of a stage that starts here; `parameter`: that by which derivatives are taken, where it is one of a stage of
-    /// this number.
-    #[must_use]
-    pub fn after(&self, (stage, number): (&Stage, usize), k: usize, parameter: &Parameter) -> Self {
-        let times = stage.times();
-        let mut change = self.change;
-        for (freedom, control) in stage.by_freedom().into_iter().enumerate() {
-            let Some(control) = control else { continue };
-            let part = control_by(control, parameter.is_control(number, freedom));
-            // What is prescribed is linear in where the stage starts and in the numbers of the control.
-            change[freedom] = stage.value(&part, change[freedom], k, times.as_ref());
-        }
-        Self { step: stage.load(&self.step, k), change }
-    }
-
-    /// The share that the part in front of the mirrors carries, from the state before.
-    #[must_use]
-    pub fn of_part(&self, scene: &Scene<'_>, before: &ContactState) -> Self {
-        let symmetry = scene.plan.symmetry;
-        if !symmetry.any() {
-            return *self;
-        }
-        let step = symmetry.part_of_load(&self.step, before);
-        let share = 1.0 / symmetry.copies() as f64;
-        let (whole, part) = (self.step.controls(), step.controls());
-        let mut change = self.change;
-        for freedom in 0..FREEDOMS {
-            change[freedom] = match (whole[freedom], part[freedom]) {
-                // Bulk stresses are no forces of a part.
-                (Control::Force(_), Control::Force(_)) if freedom < 6 => share * change[freedom],
-                (whole, part) if discriminant(&whole) == discriminant(&part) => change[freedom],
-                _ => 0.0, // the symmetry forbids it
-            };
-        }
-        Self { step, change }
+        let from = last.map(|last| of_kinds(last, &step.controls(), 0..3, &of_part));
+        let taken_before = from.map_or([None; FREEDOMS], |(_, taken)| taken);
+        let from = from.map(|(from, _)| from);
+        Load { step, from, stage, begins, taken, taken_before, keeps, own, share, copies }
     }
 }
 
-/// The derivative of a control by its number, where that is the parameter.
-fn control_by(control: &StageControl, is_parameter: bool) -> StageControl {
-    let change = f64::from(u8::from(is_parameter));
+/// Derivatives of what a stage prescribes at the end of its increment `k`, by where it starts and by the numbers of its controls, in both of
+/// which it is linear.
+fn slopes(stage: &Stage, k: usize) -> ([f64; FREEDOMS], [f64; FREEDOMS]) {
+    let times = stage.times();
+    let (mut keeps, mut own) = ([1.0; FREEDOMS], [0.0; FREEDOMS]);
+    for (freedom, control) in stage.by_freedom().into_iter().enumerate() {
+        let Some(control) = control else { continue };
+        keeps[freedom] = stage.value(&with_number(control, 0.0), 1.0, k, times.as_ref());
+        own[freedom] = stage.value(&with_number(control, 1.0), 0.0, k, times.as_ref());
+    }
+    (keeps, own)
+}
+
+/// A control with another number; of a table none.
+fn with_number(control: &StageControl, number: f64) -> StageControl {
     let path = match control.path() {
-        Path::To(_) => Path::To(change),
-        Path::Wave { phase, .. } => Path::Wave { amplitude: change, phase: *phase },
+        Path::To(_) => Path::To(number),
+        Path::Wave { phase, .. } => Path::Wave { amplitude: number, phase: *phase },
         Path::Through(values) => Path::Through(vec![0.0; values.len()]),
     };
     match control {
@@ -136,5 +154,52 @@ fn control_by(control: &StageControl, is_parameter: bool) -> StageControl {
         StageControl::Motion(_) => StageControl::Motion(path),
         StageControl::FarEnd(_) => StageControl::FarEnd(path),
         StageControl::Rate(_) => StageControl::Rate(path),
+    }
+}
+
+impl Load {
+    /// Changes of the loads, with those of the numbers of the stage.
+    pub fn forward(&self, before: &Change, numbers: &[f64; FREEDOMS], next: &mut Change) {
+        let (mut taken, mut from) = (before.held, before.load);
+        for (freedom, reached) in before.reached.iter().enumerate() {
+            if let Some(place) = self.taken[freedom] {
+                taken[freedom] = reached[place];
+            }
+            if let Some(place) = self.taken_before[freedom] {
+                from[freedom] = reached[place] / if place == 0 { self.copies } else { 1.0 };
+            }
+        }
+        next.start = if self.begins { taken } else { before.start };
+        for freedom in 0..FREEDOMS {
+            next.held[freedom] =
+                self.keeps[freedom] * next.start[freedom] + self.own[freedom] * numbers[freedom];
+            next.load[freedom] = self.share[freedom] * next.held[freedom];
+        }
+        next.from = from;
+    }
+
+    /// Backwards: from those of the loads to those of the loads before, and of the numbers of the stage.
+    pub fn transposed(&self, next: &Change, before: &mut Change, numbers: &mut [f64; FREEDOMS]) {
+        let mut start = next.start;
+        for freedom in 0..FREEDOMS {
+            let held = next.held[freedom] + self.share[freedom] * next.load[freedom];
+            start[freedom] += self.keeps[freedom] * held;
+            numbers[freedom] += self.own[freedom] * held;
+        }
+        for freedom in 0..FREEDOMS {
+            if !self.begins {
+                before.start[freedom] += start[freedom];
+            } else if let Some(place) = self.taken[freedom] {
+                before.reached[freedom][place] += start[freedom];
+            } else {
+                before.held[freedom] += start[freedom];
+            }
+            if let Some(place) = self.taken_before[freedom] {
+                let copies = if place == 0 { self.copies } else { 1.0 };
+                before.reached[freedom][place] += next.from[freedom] / copies;
+            } else {
+                before.load[freedom] += next.from[freedom];
+            }
+        }
     }
 }

@@ -1,26 +1,38 @@
 //! Exact sensitivities: derivatives of a history of contact and friction by numbers of its case, without differences of runs.
 //!
 //! The equations of every increment are linearised on the sets that its solution has (open, stick, slip), and their derivatives carried from
-//! increment to increment; local laws are differentiated by dual numbers through the formulas that the solver uses. Theory:
-//! `docs/theory/sensitivities.md`.
+//! increment to increment, forward by each number or backwards from each result (`increment.rs`); local laws are differentiated through the
+//! formulas that the solver uses, written for numbers of any kind. Theory: `docs/theory/sensitivities.md`.
 
 mod after;
+mod backward;
 mod bodies;
 mod cell;
+mod change;
+mod coming;
+mod contact;
+mod energies;
 mod error;
 mod events;
+mod forward;
 mod gradient;
+mod increment;
 mod krylov;
 mod linearised;
 mod loads;
 mod objective;
 mod parameter;
 mod refusals;
+mod replay;
+mod rule;
 mod scene;
-mod track;
+mod solved;
+#[cfg(test)]
+mod tests;
+mod transposed;
 
 pub use error::SensitivityError;
 pub use events::NearEvents;
-pub use gradient::{Gradient, Request, Sensitivities, gradient};
+pub use gradient::{Direction, Gradient, Request, Sensitivities, gradient, pulled_back};
 pub use objective::COLUMNS;
 pub use parameter::Parameter;

@@ -1,8 +1,9 @@
 //! Of what derivatives are taken: columns of an increment, and of a cycle.
 
+use super::change::Change;
 use super::error::SensitivityError;
-use super::track::Track;
-use crate::fields::{Dual, Reals, Scalar};
+use super::solved::Solved;
+use crate::fields::length;
 use crate::history::{CycleRecord, STEP_COLUMNS, StepRecord, Value};
 
 /// Columns of an increment that have derivatives.
@@ -74,7 +75,7 @@ impl Objective {
         }
     }
 
-    /// Increments whose tracks it needs, each with its sign: the value is the sum. `None` stands for the state before the first.
+    /// Increments that it needs, each with its sign: the value is the sum. `None` stands for the state before the first.
     pub fn needs(
         &self,
         name: &str,
@@ -113,42 +114,97 @@ pub(super) fn value_of(record: &StepRecord, column: &str) -> f64 {
     }
 }
 
-/// Derivative of a column of the increment that a track has reached; `friction`: that of the coefficient in force.
-pub(super) fn change_of(track: &Track, (column, friction): (&str, f64)) -> f64 {
-    let [normal, x, y, turn, tilt_x, tilt_y] = &track.reached;
-    let [dissipated, elastic, external, unresolved] = track.energies;
-    let dual = match column {
-        "normal_force" => normal.force,
-        "approach" => normal.motion,
-        "actuator_approach" => normal.far_end,
-        "tangential_force_x" => x.force,
-        "tangential_force_y" => y.force,
-        "shift_x" => x.motion,
-        "shift_y" => y.motion,
-        "actuator_x" => x.far_end,
-        "actuator_y" => y.far_end,
-        "twist_moment" => turn.force,
-        "twist" => turn.motion,
-        "tilt_x" => tilt_x.motion,
-        "tilt_y" => tilt_y.motion,
-        "tilt_moment_x" => tilt_x.force,
-        "tilt_moment_y" => tilt_y.force,
-        "max_pressure" => largest(track.pressure.iter().copied()),
-        "max_shear" => {
-            let sizes = track.shear[0].iter().zip(&track.shear[1]);
-            largest(sizes.map(|(x, y)| Reals::sqrt(*x * *x + *y * *y)))
-        }
-        "dissipated_energy" => dissipated,
-        "elastic_energy" => elastic,
-        "external_work" => external,
-        "unresolved_energy" => unresolved,
-        "friction_coefficient" => return friction,
-        // Nothing wears in the histories whose derivatives are taken.
-        _ => return 0.0,
-    };
-    dual.change
+/// A column of an increment as a row: what it is of all that changes there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Row {
+    /// Force, motion or motion of the far end of a degree of freedom.
+    Reached(usize, usize),
+    /// An energy.
+    Energy(usize),
+    /// The pressure of a cell.
+    Pressure(usize),
+    /// The shear of a cell, along a direction.
+    Shear(usize, [f64; 2]),
+    /// The friction coefficient in force.
+    Friction,
+    /// Nothing: nothing wears in the histories whose derivatives are taken.
+    Nothing,
 }
 
-fn largest(values: impl Iterator<Item = Dual>) -> Dual {
-    values.fold(Dual::of(0.0), |most, value| if value.value > most.value { value } else { most })
+impl Row {
+    /// That of a column of an increment.
+    pub fn new(column: &str, solved: &Solved) -> Self {
+        match column {
+            "normal_force" => Self::Reached(0, 0),
+            "approach" => Self::Reached(0, 1),
+            "actuator_approach" => Self::Reached(0, 2),
+            "tangential_force_x" => Self::Reached(1, 0),
+            "tangential_force_y" => Self::Reached(2, 0),
+            "shift_x" => Self::Reached(1, 1),
+            "shift_y" => Self::Reached(2, 1),
+            "actuator_x" => Self::Reached(1, 2),
+            "actuator_y" => Self::Reached(2, 2),
+            "twist_moment" => Self::Reached(3, 0),
+            "twist" => Self::Reached(3, 1),
+            "tilt_x" => Self::Reached(4, 1),
+            "tilt_y" => Self::Reached(5, 1),
+            "tilt_moment_x" => Self::Reached(4, 0),
+            "tilt_moment_y" => Self::Reached(5, 0),
+            "max_pressure" => {
+                let pressed = solved.contact.cells().map(|cell| (cell, solved.tractions[0][cell]));
+                largest(pressed).map_or(Self::Nothing, Self::Pressure)
+            }
+            "max_shear" => {
+                let size = |cell: usize| (cell, length(solved.shear_at(cell)));
+                largest(solved.contact.cells().map(size)).map_or(Self::Nothing, |cell| {
+                    let shear = solved.shear_at(cell);
+                    Self::Shear(cell, shear.map(|part| part / length(shear)))
+                })
+            }
+            "dissipated_energy" => Self::Energy(0),
+            "elastic_energy" => Self::Energy(1),
+            "external_work" => Self::Energy(2),
+            "unresolved_energy" => Self::Energy(3),
+            "friction_coefficient" => Self::Friction,
+            _ => Self::Nothing,
+        }
+    }
+
+    /// Its change; `friction`: that of the coefficient in force.
+    pub fn change(&self, change: &Change, friction: f64) -> f64 {
+        match *self {
+            Self::Reached(freedom, what) => change.reached[freedom][what],
+            Self::Energy(energy) => change.energies[energy],
+            Self::Pressure(cell) => change.pressure[cell],
+            Self::Shear(cell, along) => along[0] * change.shear[0][cell] + along[1] * change.shear[1][cell],
+            Self::Friction => friction,
+            Self::Nothing => 0.0,
+        }
+    }
+
+    /// Backwards: adds what it counts, by a weight.
+    pub fn add(&self, weight: f64, to: &mut Change, friction: &mut f64) {
+        match *self {
+            Self::Reached(freedom, what) => to.reached[freedom][what] += weight,
+            Self::Energy(energy) => to.energies[energy] += weight,
+            Self::Pressure(cell) => to.pressure[cell] += weight,
+            Self::Shear(cell, along) => {
+                to.shear[0][cell] += weight * along[0];
+                to.shear[1][cell] += weight * along[1];
+            }
+            Self::Friction => *friction += weight,
+            Self::Nothing => {}
+        }
+    }
+}
+
+/// The first cell with the largest number, where one is positive.
+fn largest(numbers: impl Iterator<Item = (usize, f64)>) -> Option<usize> {
+    let (mut most, mut at) = (0.0, None);
+    for (cell, number) in numbers {
+        if number > most {
+            (most, at) = (number, Some(cell));
+        }
+    }
+    at
 }

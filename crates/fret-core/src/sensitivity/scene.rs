@@ -1,22 +1,25 @@
 //! What stays the same along a history whose derivatives are taken: grid, region, gap, symmetry, machine; and its increments as they were
 //! solved.
 
-use std::borrow::Cow;
-
 use ndarray::Array2;
 
 use super::cell::MOTIONS;
-use super::linearised::{Fields, Operators, displacements, zeros};
+use super::change::Reached;
+use super::error::SensitivityError;
+use super::linearised::Operators;
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceResponse};
 use crate::history::StepRecord;
 use crate::kernel::ResponseTable;
-use crate::model::{ContactState, CoulombFriction, Rig, SurfaceGrid, Zone};
+use crate::model::{ContactState, Rig, SurfaceGrid};
 use crate::plan::{Coupling, Plan};
-use crate::solver::{CellWaves, ContactSet, Preconditioner, Region};
+use crate::solver::{CellWaves, Preconditioner, Region};
 use fret_fft::{ConvolutionError, good_length};
 
 /// Cells beyond all contacts of the history: to these the edge may come, and they see those beside them.
 const MARGIN: usize = 3;
+
+/// The motion of each degree of freedom, in the order of the controls.
+pub(super) const MOTION_OF: [usize; 6] = [0, 3, 4, 5, 1, 2];
 
 /// An increment as the run left it: its record, and the state in front of the mirrors.
 pub(super) struct Snapshot {
@@ -39,18 +42,6 @@ pub(super) struct Scene<'a> {
     pub undeformed: Array2<f64>,
     /// Springs of the part in front of the mirrors.
     pub rig: Rig,
-}
-
-/// One increment in the region.
-pub(super) struct Solved<'a> {
-    pub record: &'a StepRecord,
-    pub law: Cow<'a, CoulombFriction>,
-    pub tractions: Fields,
-    pub displacements: Fields,
-    pub zone: Array2<Zone>,
-    /// Rotations times the length [length].
-    pub motions: [f64; MOTIONS],
-    pub contact: ContactSet,
 }
 
 impl<'a> Scene<'a> {
@@ -100,7 +91,7 @@ impl<'a> Scene<'a> {
             normal_from_all: false,
             shear_axis: self.plan.along,
             symmetry: self.plan.symmetry,
-            single: false,
+            single: self.plan.single_precision,
         }
     }
 
@@ -109,12 +100,13 @@ impl<'a> Scene<'a> {
         &self,
         response: &SurfaceResponse,
         table: Option<&ResponseTable>,
-    ) -> Result<Operators, ConvolutionError> {
+    ) -> Result<Operators, SensitivityError> {
+        let failed = |error: ConvolutionError| SensitivityError::Operators(error.to_string());
         let (shape, set) = (self.region.shape, self.operator_set());
         let waves = table.map(|table| CellWaves { table, spacing: self.grid.spacing() });
         Ok(Operators {
-            compliance: SpectralCompliance::new(response, shape, set)?,
-            preconditioner: Preconditioner::new(response, waves, shape, set)?,
+            compliance: SpectralCompliance::new(response, shape, set).map_err(failed)?,
+            preconditioner: Preconditioner::new(response, waves, shape, set).map_err(failed)?,
             frictional: self.is_frictional(),
         })
     }
@@ -124,38 +116,67 @@ impl<'a> Scene<'a> {
         SpectralCompliance::new(change, self.region.shape, self.operator_set())
     }
 
-    /// An increment of the history in the region, under a law of friction of the whole grid.
-    pub fn solved<'b>(
-        &self,
-        snapshot: &'b Snapshot,
-        law: &'b CoulombFriction,
-        operators: &mut Operators,
-    ) -> Solved<'b> {
-        let Snapshot { record, state } = snapshot;
-        let region = self.region;
-        let tractions = [&state.pressure, &state.shear[0], &state.shear[1]].map(|field| region.gather(field));
-        let moved = if tractions[0].iter().any(|p| *p > 0.0) {
-            displacements(&mut operators.compliance, operators.frictional, &tractions)
-        } else {
-            zeros(region.len())
-        };
-        let zones = region.gather_map(&state.zone, |zone| *zone);
-        let shape = region.shape;
-        Solved {
-            record,
-            law: self.plan.symmetry.part_of_friction(law),
-            contact: ContactSet::loaded(&tractions[0]),
-            tractions,
-            displacements: moved,
-            zone: Array2::from_shape_vec(shape, zones).unwrap_or_else(|_| Array2::default(shape)),
-            motions: self.motions(state),
-        }
-    }
-
     /// Motions of a state, rotations times the length [length].
     pub fn motions(&self, state: &ContactState) -> [f64; MOTIONS] {
         let [tilt_x, tilt_y] = state.tilt.map(|slope| slope * self.length);
         [state.approach, tilt_x, tilt_y, state.shift[0], state.shift[1], state.twist * self.length]
+    }
+
+    /// Compliances of the machine: normal, along x and y [length/force].
+    pub fn springs(&self) -> [f64; 3] {
+        let rig = self.plan.case.springs();
+        [rig.normal, rig.tangential[0], rig.tangential[1]]
+    }
+
+    /// For each degree of freedom the factor of a cell's tractions, normal and along x and y, in the force of the whole contact: forces normal and
+    /// along x and y, moment about z, tilting moments. None of a force that the symmetry forbids.
+    pub fn levers(&self, cell: usize) -> [[f64; 3]; 6] {
+        let [x, y] = self.places[cell].map(|place| place * self.length);
+        let symmetry = self.plan.symmetry;
+        let mirrored = symmetry.axes();
+        let area = self.area();
+        let if_allowed = |allowed: bool| if allowed { area } else { 0.0 };
+        let sheared = [0, 1].map(|axis| if_allowed(symmetry.shear_is_odd(axis) == [false; 2]));
+        let turned = if_allowed(!symmetry.any());
+        [
+            [area, 0.0, 0.0],
+            [0.0, sheared[0], 0.0],
+            [0.0, 0.0, sheared[1]],
+            [0.0, -y * turned, x * turned],
+            [x * if_allowed(!mirrored[0]), 0.0, 0.0],
+            [y * if_allowed(!mirrored[1]), 0.0, 0.0],
+        ]
+    }
+
+    /// Forces of the whole contact under tractions, or their changes.
+    pub fn resultants(&self, tractions: [&[f64]; 3]) -> [f64; 6] {
+        let mut forces = [0.0; 6];
+        for cell in 0..self.region.len() {
+            let here = tractions.map(|field| field[cell]);
+            if here != [0.0; 3] {
+                for (force, lever) in forces.iter_mut().zip(self.levers(cell)) {
+                    *force += lever[0] * here[0] + lever[1] * here[1] + lever[2] * here[2];
+                }
+            }
+        }
+        forces
+    }
+
+    /// Where the degrees of freedom are under forces of the whole contact and motions, or how both change.
+    pub fn reached(&self, forces: [f64; 6], motions: &[f64; MOTIONS], springs: [f64; 3]) -> Reached {
+        let [normal, x, y] = springs;
+        let springs = [normal, x, y, 0.0, 0.0, 0.0];
+        let units = self.units();
+        std::array::from_fn(|freedom| {
+            let (motion, unit) = (MOTION_OF[freedom], units[freedom]);
+            let moved = motions[motion] / unit;
+            [forces[freedom], moved, moved + springs[freedom] * forces[freedom]]
+        })
+    }
+
+    /// What a motion is divided by, in the order of the controls: the length, of rotations.
+    pub fn units(&self) -> [f64; 6] {
+        [1.0, 1.0, 1.0, self.length, self.length, self.length]
     }
 }
 

@@ -65,12 +65,13 @@ pub(crate) use laws::slip_path::{end_of_chord, length_of_way, rate_since_touch};
 pub(crate) use linear::Gmres;
 pub(crate) use linear::preconditioner::{CellWaves, Preconditioner, SlipWeights};
 pub use memory::SolverMemory;
+pub(crate) use moving_edge::{Edge, SlipOfEdge, distance, moment_of_touch};
 pub(crate) use outcome::worst;
 pub use outcome::{Increment, Outcome, Regime, Residual, Resultants, Work};
-pub(crate) use pace::pace_of;
+pub(crate) use pace::{Pace, pace_of};
 pub(crate) use region::Region;
 pub use settings::{Coupling, IterationCallback, SolveError, SolverSettings};
-pub(crate) use slip_history::{Paths, Recent};
+pub(crate) use slip_history::{Then, path_after_slip, turn_after_stick, way_to_touch};
 
 use held_response::HeldResponse;
 pub use held_response::ResponseMaker;

@@ -24,8 +24,7 @@ impl<R: Scalar> Edge<'_, R> {
         if self.before[at].value() <= self.now[at].value() {
             return R::of(0.0);
         }
-        let [before, now] = [self.before[at], self.now[at]].map(distance);
-        (now / ((before - now) * self.ratio)).min(R::of(1.0))
+        moment_of_touch([self.before[at], self.now[at]], self.ratio)
     }
 
     fn neighbours(&self, [i, j]: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
@@ -40,8 +39,15 @@ impl<R: Scalar> Edge<'_, R> {
     }
 }
 
+/// The fraction of an increment at which the edge comes to an open cell whose gap has become smaller, 1 at the most: from its gaps before the last
+/// increment and after it, and the `ratio` of both increments in the normal load.
+pub fn moment_of_touch<R: Scalar>(gaps: [R; 2], ratio: R) -> R {
+    let [before, now] = gaps.map(distance);
+    (now / ((before - now) * ratio)).min(R::of(1.0))
+}
+
 /// Distance of an open cell from the edge of contact, up to a factor.
-fn distance<R: Scalar>(gap: R) -> R {
+pub fn distance<R: Scalar>(gap: R) -> R {
     let root = gap.max(R::of(0.0)).cube_root();
     root * root
 }
@@ -99,6 +105,29 @@ impl<'a, R: Scalar> SlipOfEdge<'a, R> {
             }
         }
         found[at].unwrap_or([R::of(0.0); 2])
+    }
+}
+
+/// An open cell, its slip, and its neighbours that are nearer to the contact, each with its weight.
+pub struct MeanOfNearer {
+    pub cell: [usize; 2],
+    pub slip: [f64; 2],
+    pub nearer: Vec<([usize; 2], f64)>,
+}
+
+impl SlipOfEdge<'_, f64> {
+    /// How the slip of all open cells was found that was, those nearest to the contact first.
+    pub fn means(&self) -> Vec<MeanOfNearer> {
+        let found = self.found.indexed_iter().filter_map(|((i, j), slip)| Some(([i, j], (*slip)?)));
+        let of = |(cell, slip)| {
+            let nearer = self.edge.neighbours(cell);
+            let weight = |next: [usize; 2]| (next, self.distances[cell] - self.distances[next]);
+            let nearer = nearer.map(weight).filter(|(_, weight)| *weight > 0.0).collect();
+            MeanOfNearer { cell, slip, nearer }
+        };
+        let mut means: Vec<MeanOfNearer> = found.map(of).collect();
+        means.sort_by(|a, b| self.distances[a.cell].total_cmp(&self.distances[b.cell]));
+        means
     }
 }
 

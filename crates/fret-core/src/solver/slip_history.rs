@@ -117,18 +117,17 @@ impl<R: Scalar + Send + Sync> Recent<'_, R> {
         let set = |field: &mut [Vec<R>; 2], cell: usize, [x, y]: [R; 2]| {
             (field[0][cell], field[1][cell]) = (x, y);
         };
-        let slip = |cell: usize| length_of(at(drift, cell));
         let slipping = (0..region.len()).filter(|&cell| zones[cell] == Zone::Slip);
-        let largest = slipping.clone().map(slip).fold(R::of(0.0), larger);
+        let largest = slipping.clone().map(|cell| length_of(at(drift, cell))).fold(R::of(0.0), larger);
         for cell in slipping {
-            let here = at(drift, cell);
-            let fall = match then {
-                Some((_, pressure)) if pressure[cell] <= 0.0 && self.knows_touch => R::of(ENTERED),
-                Some((drift, pressure)) if pressure[cell] > 0.0 => fall(at(drift, cell), here, self.ratio),
-                _ => R::of(0.0),
+            let then = match then {
+                Some((_, pressure)) if pressure[cell] <= 0.0 && self.knows_touch => Then::Entered,
+                Some((drift, pressure)) if pressure[cell] > 0.0 => Then::Slid(at(drift, cell)),
+                _ => Then::Unknown,
             };
-            let weight = (slip(cell) / (largest * KNOWN)).min(R::of(1.0));
-            if let Some([turn, ahead]) = path_that_goes_on(here, (pace.loads, fall * STOP, weight)) {
+            if let Some([turn, ahead]) =
+                path_after_slip(at(drift, cell), then, (pace.loads, self.ratio, largest))
+            {
                 set(&mut paths.turn, cell, turn);
                 set(&mut paths.ahead, cell, ahead);
             }
@@ -136,9 +135,7 @@ impl<R: Scalar + Send + Sync> Recent<'_, R> {
         let held = |cell: usize| at(&self.shear, cell);
         let largest_shear = (0..region.len()).map(|cell| length_of(held(cell))).fold(R::of(0.0), larger);
         for cell in (0..region.len()).filter(|&cell| zones[cell] == Zone::Stick) {
-            let shear = held(cell);
-            let weight = (length_of(shear) / (largest_shear * KNOWN)).min(R::of(1.0));
-            if let Some(turn) = turn_that_begins(shear, (BEGUN, weight)) {
+            if let Some(turn) = turn_after_stick(held(cell), largest_shear) {
                 set(&mut paths.turn, cell, turn);
             }
         }
@@ -176,6 +173,9 @@ impl<R: Scalar + Send + Sync> Recent<'_, R> {
             if grid_zones[at] == Zone::Slip { drift_at(number(at)) } else { [R::of(0.0); 2] }
         };
         let mut coming = SlipOfEdge::new(edge, grid_zones);
+        let set = |field: &mut [Vec<R>; 2], cell: usize, [x, y]: [R; 2]| {
+            (field[0][cell], field[1][cell]) = (x, y);
+        };
         for (cell, moment) in entering {
             let touch = moment * pace.loads;
             let here = match &wide {
@@ -183,13 +183,50 @@ impl<R: Scalar + Send + Sync> Recent<'_, R> {
                 _ => drift_at(cell),
             };
             let slid = coming.at(at(cell), &slip_of);
-            let lag = left_of_lag(touch);
-            for axis in 0..2 {
-                paths.ahead[axis][cell] = touch * EDGE * slid[axis] + lag * (here[axis] - slid[axis]);
-            }
+            set(&mut paths.ahead, cell, way_to_touch(touch, here, slid));
             paths.touch[cell] = moment;
         }
     }
+}
+
+/// What is known of a cell that slipped in the last increment from the one before that.
+#[derive(Debug, Clone, Copy)]
+pub enum Then<R> {
+    /// Nothing.
+    Unknown,
+    /// It was open then, and the moment of its touch was known.
+    Entered,
+    /// Its drift [length].
+    Slid([R; 2]),
+}
+
+/// Vector t and offset a of a cell that slipped, `here` its last drift; `loads` and `ratio` are the lengths of the increment and of the last one,
+/// each over that of the one before it, and `largest` the largest slip of all cells. `None` where it did not move.
+pub fn path_after_slip<R: Scalar>(
+    here: [R; 2],
+    then: Then<R>,
+    (loads, ratio, largest): (R, R, R),
+) -> Option<[[R; 2]; 2]> {
+    let fall = match then {
+        Then::Entered => R::of(ENTERED),
+        Then::Slid(drift) => fall(drift, here, ratio),
+        Then::Unknown => R::of(0.0),
+    };
+    let weight = (length_of(here) / (largest * KNOWN)).min(R::of(1.0));
+    path_that_goes_on(here, (loads, fall * STOP, weight))
+}
+
+/// Vector t of a cell that stuck under a shear; `largest` is the largest of all cells. `None` without shear.
+pub fn turn_after_stick<R: Scalar>(shear: [R; 2], largest: R) -> Option<[R; 2]> {
+    let weight = (length_of(shear) / (largest * KNOWN)).min(R::of(1.0));
+    turn_that_begins(shear, (BEGUN, weight))
+}
+
+/// Offset a of an open cell: how far it goes until the edge comes to it, after `touch` times the last increment; `here` its last drift, `slid` the
+/// slip of the edge.
+pub fn way_to_touch<R: Scalar>(touch: R, here: [R; 2], slid: [R; 2]) -> [R; 2] {
+    let lag = left_of_lag(touch);
+    [0, 1].map(|axis| touch * EDGE * slid[axis] + lag * (here[axis] - slid[axis]))
 }
 
 /// The larger of two numbers, the first where they are the same.

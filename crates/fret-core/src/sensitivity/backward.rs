@@ -1,0 +1,205 @@
+//! Backward differentiation: how objectives change with all that an increment leaves behind, carried from the last increment to the first; one linear
+//! problem for each increment and objective serves all numbers of the case.
+
+use std::ops::ControlFlow;
+
+use super::change::Change;
+use super::contact::Drive;
+use super::error::SensitivityError;
+use super::events::{NearEvents, near_events};
+use super::forward::{change_of_gap, response_by};
+use super::increment::{ENOUGH, Increment};
+use super::linearised::{Fields, Operators, displacements};
+use super::loads::Load;
+use super::objective::Row;
+use super::parameter::Parameter;
+use super::replay::Replay;
+use super::scene::{Scene, Snapshot};
+use super::solved::Solved;
+use crate::compliance::{SpectralCompliance, SurfaceCompliance};
+use crate::fields::{add_scaled, dot};
+use crate::model::controls::FREEDOMS;
+use crate::run::{PairCompliance, RunError};
+
+/// Bytes a cell of an increment that is kept: eleven fields and the zone.
+pub(super) const BYTES: usize = 89;
+
+/// An objective: its name, and columns of increments, each with its weight.
+pub(super) struct Target {
+    pub of: String,
+    pub columns: Vec<(usize, &'static str, f64)>,
+}
+
+/// A history that was solved, increment by increment.
+pub(super) struct Past {
+    start: Solved,
+    increments: Vec<(Load, Solved)>,
+    operators: Operators,
+}
+
+impl Past {
+    /// Goes through a history; `None` where bodies come apart, or no load changes in an increment: then derivatives go forward.
+    pub fn of(scene: &Scene<'_>, steps: &[Snapshot]) -> Result<Option<Self>, SensitivityError> {
+        let compliance = PairCompliance::of(scene.plan);
+        let mut operators = scene.operators(&compliance.response, compliance.table.as_ref())?;
+        let mut replay = Replay::new(scene);
+        let mut increments: Vec<(Load, Solved)> = Vec::with_capacity(steps.len());
+        for (number, step) in steps.iter().enumerate() {
+            let state = number.checked_sub(1).map(|last| &steps[last].state);
+            let past = [1, 2].map(|back| number.checked_sub(back).map(|at| &increments[at].1));
+            let next = replay.next((step, state), past, &mut operators);
+            let Some(solved) = next.solved.filter(|solved| solved.contact.len() > 0) else { return Ok(None) };
+            increments.push((next.load, solved));
+        }
+        Ok(Some(Self { start: replay.start, increments, operators }))
+    }
+}
+
+/// How an objective changes with what a history is made from.
+struct Gathered {
+    /// Those after the increment at work, after the one before it, and after the one before that.
+    changes: [Change; 3],
+    gap: Vec<f64>,
+    rig: [f64; 3],
+    /// Coefficient and strength, and numbers of the controls, stage by stage.
+    friction: Vec<[f64; 2]>,
+    controls: Vec<[f64; FREEDOMS]>,
+    /// The numbers of bodies, in the order of the numbers.
+    bodies: Vec<f64>,
+}
+
+impl Gathered {
+    fn nothing(cells: usize, stages: usize, numbers: usize) -> Self {
+        Self {
+            changes: [(); 3].map(|()| Change::none(cells)),
+            gap: vec![0.0; cells],
+            rig: [0.0; 3],
+            friction: vec![[0.0; 2]; stages],
+            controls: vec![[0.0; FREEDOMS]; stages],
+            bodies: vec![0.0; numbers],
+        }
+    }
+
+    /// Takes the columns of the objective in an increment.
+    fn take(&mut self, target: &Target, (increment, stage): (usize, usize), solved: &Solved) {
+        for (_, column, weight) in target.columns.iter().filter(|(of, ..)| *of == increment) {
+            let [coefficient, _] = &mut self.friction[stage];
+            Row::new(column, solved).add(*weight, &mut self.changes[0], coefficient);
+        }
+    }
+
+    /// Its derivative by a number.
+    fn by(&self, parameter: &Parameter, number: usize, scene: &Scene<'_>) -> f64 {
+        let case = &scene.plan.case;
+        let mut sum = self.bodies[number];
+        if parameter.is_of_shape() {
+            sum += dot(&self.gap, &change_of_gap(parameter, scene));
+        }
+        for (of, by) in self.rig.iter().zip(parameter.change_of_rig(case)) {
+            sum += of * by;
+        }
+        for (stage, (friction, controls)) in self.friction.iter().zip(&self.controls).enumerate() {
+            for (of, by) in friction.iter().zip(parameter.change_of_friction(case, stage)) {
+                sum += of * by;
+            }
+            let of_controls = controls.iter().enumerate();
+            sum += of_controls
+                .filter(|(freedom, _)| parameter.is_control(stage, *freedom))
+                .map(|(_, of)| of)
+                .sum::<f64>();
+        }
+        sum
+    }
+}
+
+/// Derivatives of the targets by all numbers, and where most cells are about to change their state. `visit` is told every increment.
+pub(super) fn backward(
+    scene: &Scene<'_>,
+    (mut past, steps): (Past, &[Snapshot]),
+    parameters: &[Parameter],
+    targets: &[Target],
+    mut visit: impl FnMut(&Snapshot) -> ControlFlow<()>,
+) -> Result<(Vec<Vec<f64>>, Option<NearEvents>), SensitivityError> {
+    let (cells, stages) = (scene.region.len(), scene.plan.case.stages.len());
+    let mut gathered: Vec<Gathered> =
+        targets.iter().map(|_| Gathered::nothing(cells, stages, parameters.len())).collect();
+    let mut responses = parameters
+        .iter()
+        .map(|parameter| response_by(scene, parameter))
+        .collect::<Result<Vec<Option<SpectralCompliance>>, _>>()?;
+    let mut most: Option<NearEvents> = None;
+    for number in (0..steps.len()).rev() {
+        let (load, now) = &past.increments[number];
+        for (gathered, target) in gathered.iter_mut().zip(targets) {
+            gathered.take(target, (number, load.stage), now);
+        }
+        if visit(&steps[number]).is_break() {
+            return Err(RunError::Interrupted { increment: number }.into());
+        }
+        if gathered.iter().all(|gathered| gathered.changes[0].is_none()) {
+            for gathered in &mut gathered {
+                gathered.changes.rotate_left(1);
+            }
+            continue;
+        }
+        let before =
+            [1, 2].map(|back| number.checked_sub(back).map_or(&past.start, |at| &past.increments[at].1));
+        let increment = Increment::new(scene, (&steps[number].record, load), now, before);
+        let own = past.operators.compliance.self_influence();
+        let near = near_events((scene, now, number), &increment.contact, [own.normal, own.tangential]);
+        // The earliest of those with as many, as forward.
+        if near.cells > 0 && near.cells >= most.map_or(0, |most| most.cells) {
+            most = Some(near);
+        }
+        let by_response: Vec<Option<Fields>> = responses
+            .iter_mut()
+            .map(|change| {
+                change.as_mut().map(|change| displacements(change, scene.is_frictional(), &now.tractions))
+            })
+            .collect();
+        let mut equations = increment.equations(&mut past.operators);
+        for (gathered, target) in gathered.iter_mut().zip(targets) {
+            let [after, before, former] = &mut gathered.changes;
+            let after = std::mem::replace(after, Change::none(cells));
+            if after.is_none() {
+                gathered.changes.rotate_left(1);
+                continue;
+            }
+            let mut drive = Drive::none(cells);
+            let numbers = &mut gathered.controls[load.stage];
+            let found = increment.transposed(&mut equations, after, [before, former], (&mut drive, numbers));
+            found.map_err(|reached| SensitivityError::NotSolved {
+                increment: number,
+                of: format!("of {}", target.of),
+                reached,
+                target: ENOUGH,
+            })?;
+            add_scaled(&mut gathered.gap, 1.0, &drive.gap);
+            for (sum, by) in gathered.friction[load.stage].iter_mut().zip(drive.friction) {
+                *sum += by;
+            }
+            for (sum, by) in gathered.rig.iter_mut().zip(drive.rig) {
+                *sum += by;
+            }
+            for (sum, by) in gathered.bodies.iter_mut().zip(&by_response) {
+                if let Some(by) = by {
+                    *sum += by.iter().zip(&drive.response).map(|(by, of)| dot(by, of)).sum::<f64>();
+                }
+            }
+            gathered.changes.rotate_left(1);
+        }
+    }
+    for gathered in &mut gathered {
+        let [start, earlier, _] = &gathered.changes;
+        add_scaled(&mut gathered.gap, 1.0, &start.gap);
+        add_scaled(&mut gathered.gap, 1.0, &earlier.gap);
+    }
+    let by = |gathered: &Gathered| {
+        parameters
+            .iter()
+            .enumerate()
+            .map(|(number, parameter)| gathered.by(parameter, number, scene))
+            .collect()
+    };
+    Ok((gathered.iter().map(by).collect(), most))
+}

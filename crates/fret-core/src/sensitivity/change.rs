@@ -1,0 +1,90 @@
+//! The change, by one number, of all that an increment leaves behind for those after it; or, backwards, how an objective changes with each of
+//! these.
+
+use crate::model::controls::FREEDOMS;
+
+use super::cell::MOTIONS;
+
+/// Where the degrees of freedom are, in the order of their controls (normal, along x and y, about z, tilts): force of the whole contact, motion,
+/// motion of the far end of the spring.
+pub(super) type Reached = [[f64; 3]; 6];
+
+/// A tangential field.
+pub(super) type Tangential = [Vec<f64>; 2];
+
+/// One number for each of the quantities that go from increment to increment, in the region.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Change {
+    pub pressure: Vec<f64>,
+    pub shear: Tangential,
+    pub gap: Vec<f64>,
+    /// Tangential displacement of the upper surface over the lower, motions included.
+    pub slid: Tangential,
+    /// What the rule of slip takes for the drift of the increment.
+    pub drift: Tangential,
+    /// Rotations times the length.
+    pub motions: [f64; MOTIONS],
+    /// Dissipated, stored, external and unresolved energy of the whole contact.
+    pub energies: [f64; 4],
+    pub reached: Reached,
+    /// Load at the start of the stage and at the end of the increment, of the whole contact.
+    pub start: [f64; FREEDOMS],
+    pub held: [f64; FREEDOMS],
+    /// Load at the start and at the end of the increment, of the part in front of the mirrors.
+    pub from: [f64; FREEDOMS],
+    pub load: [f64; FREEDOMS],
+    /// Length of the increment over that of the one before.
+    pub ratio: f64,
+}
+
+impl Change {
+    /// None, in a region of so many cells.
+    pub fn none(cells: usize) -> Self {
+        let tangential = || [vec![0.0; cells], vec![0.0; cells]];
+        Self {
+            pressure: vec![0.0; cells],
+            shear: tangential(),
+            gap: vec![0.0; cells],
+            slid: tangential(),
+            drift: tangential(),
+            motions: [0.0; MOTIONS],
+            energies: [0.0; 4],
+            reached: Reached::default(),
+            start: [0.0; FREEDOMS],
+            held: [0.0; FREEDOMS],
+            from: [0.0; FREEDOMS],
+            load: [0.0; FREEDOMS],
+            ratio: 0.0,
+        }
+    }
+
+    /// All its numbers, part by part.
+    pub fn parts(&self) -> impl Iterator<Item = &[f64]> {
+        let Self { shear, slid, drift, reached, .. } = self;
+        let fields = [&self.pressure, &self.gap].into_iter().chain(shear).chain(slid).chain(drift);
+        let loads = [&self.start, &self.held, &self.from, &self.load].into_iter().map(|load| &load[..]);
+        let small =
+            [&self.motions[..], &self.energies, reached.as_flattened(), std::slice::from_ref(&self.ratio)];
+        fields.map(Vec::as_slice).chain(loads).chain(small)
+    }
+
+    /// Whether all are zero.
+    pub fn is_none(&self) -> bool {
+        self.parts().flatten().all(|value| *value == 0.0)
+    }
+}
+
+/// Change of the solution of an increment: tractions and displacements on all cells of the region, and motions; or how an objective changes with
+/// them.
+#[derive(Debug, Clone)]
+pub(super) struct Solution {
+    pub tractions: super::linearised::Fields,
+    pub displacements: super::linearised::Fields,
+    pub motions: [f64; MOTIONS],
+}
+
+/// Adds to a cell of a tangential field.
+pub(super) fn add(field: &mut Tangential, cell: usize, [x, y]: [f64; 2]) {
+    field[0][cell] += x;
+    field[1][cell] += y;
+}

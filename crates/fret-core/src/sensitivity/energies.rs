@@ -1,0 +1,281 @@
+//! The energies of an increment, linearised: what friction dissipates, what is stored, the work put in, and what remains. The formulas are those of
+//! the solver (`solver/state_after.rs`, `solver/energy.rs`).
+
+use super::cell::MOTIONS;
+use super::change::{Change, Solution};
+use super::contact::bound_by_friction;
+use super::rule::{PathChange, Rule, combination, product};
+use super::scene::Scene;
+use super::solved::{Solved, at, deep_by, moved_by};
+use crate::fields::{Slopes, length_of};
+use crate::model::{CoulombFriction, Zone};
+use crate::solver::{FrictionLaw, dissipation, length_of_way, slip_until_open};
+
+/// Friction bound, and its derivatives by pressure, coefficient and strength.
+#[derive(Debug, Clone, Copy)]
+struct Bound {
+    value: f64,
+    by: [f64; 3],
+}
+
+/// What a cell that slips dissipates, by its slip, its shear before and after, and its bounds before and after.
+struct Slips {
+    place: usize,
+    cell: usize,
+    /// Share of its drift and of its offset in its slip.
+    shares: [f64; 2],
+    by: [f64; 8],
+    bounds: [Bound; 2],
+}
+
+/// What a cell that comes out of contact dissipates, by its drift, its shear and its bound before.
+struct Opens {
+    cell: usize,
+    by: [f64; 5],
+    bound: Bound,
+}
+
+/// The energies of an increment.
+pub(super) struct Energies<'a> {
+    scene: &'a Scene<'a>,
+    now: &'a Solved,
+    before: &'a Solved,
+    slips: Vec<Slips>,
+    opens: Vec<Opens>,
+}
+
+/// What the energies depend on: states before and after, the solution, paths, and friction.
+pub(super) struct Inputs<'a> {
+    pub before: &'a Change,
+    pub next: &'a Change,
+    pub solution: &'a Solution,
+    pub paths: &'a PathChange,
+    pub friction: [f64; 2],
+}
+
+/// The same backwards.
+pub(super) struct Outputs<'a> {
+    pub before: &'a mut Change,
+    pub next: &'a mut Change,
+    pub solution: &'a mut Solution,
+    pub paths: &'a mut PathChange,
+    pub friction: &'a mut [f64; 2],
+}
+
+impl<'a> Energies<'a> {
+    pub fn new(
+        scene: &'a Scene<'a>,
+        [now, before]: [&'a Solved; 2],
+        (law, rule): (&CoulombFriction, &Rule),
+    ) -> Self {
+        let of_region = FrictionLaw::in_region(law, scene.region);
+        let bound = |cell: usize, pressure: f64| {
+            let (value, slope) = of_region.at(cell, pressure);
+            let [coefficient, strength] = bound_by_friction((law, scene.region.at(cell)), pressure);
+            Bound { value, by: [slope, coefficient, strength] }
+        };
+        let mut found = Self { scene, now, before, slips: Vec::new(), opens: Vec::new() };
+        for (place, cell) in now.contact.cells().enumerate() {
+            let zones = [before.zone_of(cell), now.zone_of(cell)];
+            let shares = shares_of_slip(zones, rule.pace.is_some());
+            if shares == [0.0; 2] {
+                continue;
+            }
+            let bounds = [bound(cell, before.tractions[0][cell]), bound(cell, now.tractions[0][cell])];
+            let (drift, ahead) = (now.drift_since(before, cell), at(&rule.ahead, place));
+            let slip = [0, 1].map(|axis| shares[0] * drift[axis] + shares[1] * ahead[axis]);
+            let ([before_x, before_y], [after_x, after_y]) = (before.shear_at(cell), now.shear_at(cell));
+            let inputs =
+                [slip[0], slip[1], before_x, before_y, after_x, after_y, bounds[0].value, bounds[1].value];
+            let [x, y, before_x, before_y, after_x, after_y, first, last] = Slopes::<8>::of_each(inputs);
+            let shear = [[before_x, before_y], [after_x, after_y]];
+            let way = length_of_way(scene.plan.case.integration, [x, y], zones, shear);
+            let by = dissipation([first, last], way).by;
+            found.slips.push(Slips { place, cell, shares, by, bounds });
+        }
+        for cell in 0..scene.region.len() {
+            let (pressure, shear) = (before.tractions[0][cell], before.shear_at(cell));
+            if now.tractions[0][cell] > 0.0 || pressure == 0.0 || shear == [0.0; 2] {
+                continue;
+            }
+            let (bound, drift) = (bound(cell, pressure), now.drift_since(before, cell));
+            let inputs = [drift[0], drift[1], shear[0], shear[1], bound.value];
+            let [x, y, shear_x, shear_y, held] = Slopes::<5>::of_each(inputs);
+            let slip = slip_until_open([x, y], [shear_x, shear_y], held);
+            let by = dissipation([held, Slopes { value: 0.0, by: [0.0; 5] }], length_of(slip)).by;
+            found.opens.push(Opens { cell, by, bound });
+        }
+        found
+    }
+
+    /// Cells with pressure before or after.
+    fn pressed(&self) -> impl Iterator<Item = usize> + '_ {
+        let [before, now] = [self.before, self.now].map(|solved| &solved.tractions[0]);
+        (0..self.scene.region.len()).filter(|&cell| before[cell] != 0.0 || now[cell] != 0.0)
+    }
+
+    /// The motions of the increment, mean tractions, drift and growth of the gap of a cell.
+    fn means(&self, cell: usize) -> ([f64; 3], [f64; 2], f64) {
+        let Self { now, before, .. } = self;
+        let tractions =
+            [0, 1, 2].map(|part| 0.5 * (before.tractions[part][cell] + now.tractions[part][cell]));
+        let [_, columns] = now.shape();
+        let place = [cell / columns, cell % columns];
+        (tractions, now.drift_since(before, cell), before.gap[place] - now.gap[place])
+    }
+
+    fn motions(&self) -> [f64; MOTIONS] {
+        std::array::from_fn(|motion| self.now.motions[motion] - self.before.motions[motion])
+    }
+
+    /// Changes of dissipated, stored, external and unresolved energy.
+    pub fn forward(&self, of: &Inputs<'_>) -> [f64; 4] {
+        let Inputs { before, next, solution, paths, friction } = of;
+        let bound = |bound: &Bound, pressure: f64| {
+            bound.by[0] * pressure + bound.by[1] * friction[0] + bound.by[2] * friction[1]
+        };
+        let drift = |cell: usize| [0, 1].map(|axis| next.slid[axis][cell] - before.slid[axis][cell]);
+        let mut dissipated = 0.0;
+        for slips in &self.slips {
+            let Slips { place, cell, shares, by, bounds } = slips;
+            let (drift, ahead) = (drift(*cell), at(&paths.ahead, *place));
+            let [x, y] = [0, 1].map(|axis| shares[0] * drift[axis] + shares[1] * ahead[axis]);
+            let ([before_x, before_y], [after_x, after_y]) =
+                (at(&before.shear, *cell), at(&next.shear, *cell));
+            let first = bound(&bounds[0], before.pressure[*cell]);
+            let last = bound(&bounds[1], next.pressure[*cell]);
+            dissipated += product(by, &[x, y, before_x, before_y, after_x, after_y, first, last]);
+        }
+        for Opens { cell, by, bound: of_cell } in &self.opens {
+            let ([x, y], [shear_x, shear_y]) = (drift(*cell), at(&before.shear, *cell));
+            let held = bound(of_cell, before.pressure[*cell]);
+            dissipated += product(by, &[x, y, shear_x, shear_y, held]);
+        }
+        let mut stored = 0.0;
+        for cell in self.now.contact.cells() {
+            for part in 0..3 {
+                stored += solution.tractions[part][cell] * self.now.displacements[part][cell]
+                    + self.now.tractions[part][cell] * solution.displacements[part][cell];
+            }
+        }
+        let motions = self.motions();
+        let change: [f64; MOTIONS] =
+            std::array::from_fn(|motion| next.motions[motion] - before.motions[motion]);
+        let (mut work, mut slipped) = (0.0, 0.0);
+        for cell in self.pressed() {
+            let (tractions, slip, opened) = self.means(cell);
+            let place = self.scene.places[cell];
+            let pressure = 0.5 * (before.pressure[cell] + next.pressure[cell]);
+            let shear = [0, 1].map(|axis| 0.5 * (before.shear[axis][cell] + next.shear[axis][cell]));
+            let (moved, by_change) = (moved_by(&motions, place), moved_by(&change, place));
+            let drift = drift(cell);
+            work += pressure * deep_by(&motions, place) + tractions[0] * deep_by(&change, place);
+            slipped += pressure * opened + tractions[0] * (before.gap[cell] - next.gap[cell]);
+            for axis in 0..2 {
+                work += shear[axis] * moved[axis] + tractions[1 + axis] * by_change[axis];
+                slipped += shear[axis] * slip[axis] + tractions[1 + axis] * drift[axis];
+            }
+        }
+        let area = self.scene.area();
+        [
+            before.energies[0] + dissipated * area,
+            stored * 0.5 * area,
+            before.energies[2] + work * area,
+            before.energies[3] + (slipped - dissipated) * area,
+        ]
+    }
+
+    /// Backwards, from those of the energies.
+    pub fn transposed(&self, of: [f64; 4], to: &mut Outputs<'_>) {
+        let Outputs { before, next, solution, paths, friction } = to;
+        let area = self.scene.area();
+        for energy in [0, 2, 3] {
+            before.energies[energy] += of[energy];
+        }
+        let [dissipated, stored, work, unresolved] = of.map(|energy| energy * area);
+        let dissipated = dissipated - unresolved;
+        let stored = 0.5 * stored;
+        let mut by_bound = |bound: &Bound, amount: f64, pressure: &mut f64| {
+            *pressure += bound.by[0] * amount;
+            friction[0] += bound.by[1] * amount;
+            friction[1] += bound.by[2] * amount;
+        };
+        for slips in &self.slips {
+            let Slips { place, cell, shares, by, bounds } = slips;
+            let [x, y, before_x, before_y, after_x, after_y, first, last] =
+                combination(&[*by], &[dissipated]);
+            for (axis, slip) in [x, y].into_iter().enumerate() {
+                next.slid[axis][*cell] += shares[0] * slip;
+                before.slid[axis][*cell] -= shares[0] * slip;
+                paths.ahead[axis][*place] += shares[1] * slip;
+            }
+            for (axis, (first, last)) in [(before_x, after_x), (before_y, after_y)].into_iter().enumerate() {
+                before.shear[axis][*cell] += first;
+                next.shear[axis][*cell] += last;
+            }
+            by_bound(&bounds[0], first, &mut before.pressure[*cell]);
+            by_bound(&bounds[1], last, &mut next.pressure[*cell]);
+        }
+        for Opens { cell, by, bound } in &self.opens {
+            let [x, y, shear_x, shear_y, held] = combination(&[*by], &[dissipated]);
+            for (axis, (drift, shear)) in [(x, shear_x), (y, shear_y)].into_iter().enumerate() {
+                next.slid[axis][*cell] += drift;
+                before.slid[axis][*cell] -= drift;
+                before.shear[axis][*cell] += shear;
+            }
+            by_bound(bound, held, &mut before.pressure[*cell]);
+        }
+        if stored != 0.0 {
+            for cell in self.now.contact.cells() {
+                for part in 0..3 {
+                    solution.tractions[part][cell] += stored * self.now.displacements[part][cell];
+                    solution.displacements[part][cell] += stored * self.now.tractions[part][cell];
+                }
+            }
+        }
+        if work == 0.0 && unresolved == 0.0 {
+            return;
+        }
+        let motions = self.motions();
+        let mut change = [0.0; MOTIONS];
+        for cell in self.pressed() {
+            let (tractions, slip, opened) = self.means(cell);
+            let place = self.scene.places[cell];
+            let moved = moved_by(&motions, place);
+            let pressure = 0.5 * (work * deep_by(&motions, place) + unresolved * opened);
+            before.pressure[cell] += pressure;
+            next.pressure[cell] += pressure;
+            before.gap[cell] += unresolved * tractions[0];
+            next.gap[cell] -= unresolved * tractions[0];
+            for axis in 0..2 {
+                let shear = 0.5 * (work * moved[axis] + unresolved * slip[axis]);
+                before.shear[axis][cell] += shear;
+                next.shear[axis][cell] += shear;
+                let drift = unresolved * tractions[1 + axis];
+                next.slid[axis][cell] += drift;
+                before.slid[axis][cell] -= drift;
+            }
+            let [x, y] = place;
+            let [normal, along_x, along_y] = tractions.map(|part| work * part);
+            let modes = [normal, normal * x, normal * y, along_x, along_y, along_y * x - along_x * y];
+            for (change, mode) in change.iter_mut().zip(modes) {
+                *change += mode;
+            }
+        }
+        for motion in 0..MOTIONS {
+            next.motions[motion] += change[motion];
+            before.motions[motion] -= change[motion];
+        }
+    }
+}
+
+/// Shares of the drift and of the offset in what counts as slip of a cell in contact.
+fn shares_of_slip([was, is]: [Zone; 2], has_paths: bool) -> [f64; 2] {
+    let drift = f64::from(u8::from(is == Zone::Slip));
+    let offset = match was {
+        Zone::Open if has_paths => -drift,
+        Zone::Slip if has_paths => 1.0 - drift,
+        _ => 0.0,
+    };
+    [drift, offset]
+}

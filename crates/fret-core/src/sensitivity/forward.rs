@@ -1,0 +1,166 @@
+//! Forward differentiation: the changes by each number, carried from increment to increment of a history that was solved.
+
+use std::ops::ControlFlow;
+
+use ndarray::Array2;
+
+use super::bodies::change_of_response;
+use super::change::Change;
+use super::contact::Drive;
+use super::error::SensitivityError;
+use super::events::{NearEvents, near_events};
+use super::increment::{ENOUGH, Increment};
+use super::linearised::displacements;
+use super::parameter::Parameter;
+use super::replay::{Replay, zones};
+use super::scene::{Scene, Snapshot, field};
+use super::solved::Solved;
+use crate::compliance::{SpectralCompliance, SurfaceCompliance};
+use crate::model::controls::FREEDOMS;
+use crate::run::{PairCompliance, RunError};
+
+/// One number on its way through the history.
+struct Course<'a> {
+    parameter: &'a Parameter,
+    before: Change,
+    former: Change,
+    /// Derivatives of the gap before deformation, and of the response.
+    gap: Vec<f64>,
+    response: Option<SpectralCompliance>,
+}
+
+/// Derivative of the response by a number, where it is one of a body.
+pub(super) fn response_by(
+    scene: &Scene<'_>,
+    parameter: &Parameter,
+) -> Result<Option<SpectralCompliance>, SensitivityError> {
+    let change = parameter.of_body().map(|number| change_of_response(scene.plan, number));
+    let made = change.map(|change| scene.compliance(&change)).transpose();
+    made.map_err(|error| SensitivityError::Operators(error.to_string()))
+}
+
+/// Derivative of the gap before deformation in the region; with heights it is counted from the cell that touches first.
+pub(super) fn change_of_gap(parameter: &Parameter, scene: &Scene<'_>) -> Vec<f64> {
+    let (plan, grid) = (scene.plan, &scene.plan.grid);
+    let in_region = |change: Array2<f64>| {
+        let part = field(scene.region, &plan.symmetry.part(&change));
+        part.into_raw_vec_and_offset().0
+    };
+    let mut change = Array2::zeros(grid.cells());
+    if !parameter.is_of_shape() {
+        return in_region(change);
+    }
+    for ((i, j), change) in change.indexed_iter_mut() {
+        *change = parameter.change_of_gap(&plan.case, grid.centre(0, i), grid.centre(1, j));
+    }
+    if !plan.case.profile.heights.is_empty() {
+        let gap = plan.case.profile.gap(grid);
+        let first = gap.indexed_iter().fold(([0, 0], f64::INFINITY), |(at, least), ((i, j), gap)| {
+            if *gap < least { ([i, j], *gap) } else { (at, least) }
+        });
+        let first = change[first.0];
+        change -= first;
+    }
+    in_region(change)
+}
+
+/// Goes through a history that was solved, and shows the changes by each number after every increment. Tells where most cells are about to change
+/// their state.
+pub(super) fn forward(
+    scene: &Scene<'_>,
+    parameters: &[Parameter],
+    steps: &[Snapshot],
+    mut visit: impl FnMut((&Snapshot, &Solved), &[&Change]) -> ControlFlow<()>,
+) -> Result<Option<NearEvents>, SensitivityError> {
+    let compliance = PairCompliance::of(scene.plan);
+    let mut operators = scene.operators(&compliance.response, compliance.table.as_ref())?;
+    let mut courses = Vec::with_capacity(parameters.len());
+    for parameter in parameters {
+        let gap = change_of_gap(parameter, scene);
+        let untouched = Change { gap: gap.clone(), ..Change::none(scene.region.len()) };
+        let response = response_by(scene, parameter)?;
+        courses.push(Course { parameter, before: untouched.clone(), former: untouched, gap, response });
+    }
+    let mut replay = Replay::new(scene);
+    let mut past = [replay.start.clone(), replay.start.clone()];
+    let mut most: Option<NearEvents> = None;
+    for (number, step) in steps.iter().enumerate() {
+        let state = number.checked_sub(1).map(|last| &steps[last].state);
+        let next = replay.next((step, state), past.each_ref().map(Some), &mut operators);
+        let stage = next.load.stage;
+        let numbers: Vec<[f64; FREEDOMS]> = courses
+            .iter()
+            .map(|course| {
+                std::array::from_fn(|freedom| {
+                    f64::from(u8::from(course.parameter.is_control(stage, freedom)))
+                })
+            })
+            .collect();
+        if let Some(solved) = next.solved {
+            let increment = Increment::new(scene, (&step.record, &next.load), &solved, past.each_ref());
+            let near = (!increment.contact.cells.is_empty()).then(|| {
+                let own = operators.compliance.self_influence();
+                near_events((scene, &solved, number), &increment.contact, [own.normal, own.tangential])
+            });
+            if let Some(near) = near.filter(|near| near.cells > most.map_or(0, |most| most.cells)) {
+                most = Some(near);
+            }
+            let mut equations = increment.equations(&mut operators);
+            for (course, numbers) in courses.iter_mut().zip(&numbers) {
+                let drive = course.drive(scene, &solved, stage);
+                let changes = [&course.before, &course.former];
+                let after = increment.forward(&mut equations, changes, (&drive, numbers));
+                let after = after.map_err(|reached| SensitivityError::NotSolved {
+                    increment: number,
+                    of: format!("by {}", course.parameter.path()),
+                    reached,
+                    target: ENOUGH,
+                })?;
+                course.former = std::mem::replace(&mut course.before, after);
+            }
+            drop(equations);
+            drop(increment);
+            let [before, former] = &mut past;
+            *former = std::mem::replace(before, solved);
+        } else {
+            let begins_with_friction = next.load.begins && scene.plan.case.stages[stage].friction.is_some();
+            for (course, numbers) in courses.iter_mut().zip(&numbers) {
+                let mut after = course.before.clone();
+                next.load.forward(&course.before, numbers, &mut after);
+                if begins_with_friction || after.load != course.before.load {
+                    return Err(SensitivityError::NotCovered {
+                        key: format!(
+                            "increment {number}, in which no load changes but friction or the number itself, {}",
+                            course.parameter.path()
+                        ),
+                        advice: "let a load change in each increment, or take the number of the stage before",
+                    });
+                }
+                (course.before.start, course.before.held) = (after.start, after.held);
+            }
+            past[0].zone = zones(scene, &step.state);
+        }
+        let changes: Vec<&Change> = courses.iter().map(|course| &course.before).collect();
+        if visit((step, &past[0]), &changes).is_break() {
+            return Err(RunError::Interrupted { increment: number }.into());
+        }
+    }
+    Ok(most)
+}
+
+impl Course<'_> {
+    /// What an increment depends on by the number.
+    fn drive(&mut self, scene: &Scene<'_>, solved: &Solved, stage: usize) -> Drive {
+        let case = &scene.plan.case;
+        let mut drive = Drive::none(scene.region.len());
+        drive.gap.clone_from(&self.gap);
+        drive.friction = self.parameter.change_of_friction(case, stage);
+        drive.rig = self.parameter.change_of_rig(case);
+        if let Some(change) = &mut self.response
+            && solved.contact.len() > 0
+        {
+            drive.response = displacements(change, scene.is_frictional(), &solved.tractions);
+        }
+        drive
+    }
+}

@@ -1,0 +1,217 @@
+//! One increment of a history, linearised: how all that it leaves behind changes with all that it found, and with the numbers of the case. Each of
+//! its terms goes forward, from changes to changes, and backwards, by its transpose: loads, the rule of slip, what the equations ask for, their
+//! solution, and what follows from that.
+
+use super::after::After;
+use super::cell::{MOTIONS, Prescribed};
+use super::change::{Change, Solution};
+use super::contact::{Asked, Contact, Drive};
+use super::krylov;
+use super::linearised::{Linearised, Operators, zeros};
+use super::loads::Load;
+use super::rule::{Cells, PathChange, Rule};
+use super::scene::Scene;
+use super::solved::{Solved, law_of};
+use super::transposed::Transposed;
+use crate::fields::add_scaled;
+use crate::history::StepRecord;
+use crate::model::Zone;
+use crate::model::controls::FREEDOMS;
+
+/// Relative residual of the linear equations that is good enough.
+pub(super) const ENOUGH: f64 = 1e-9;
+
+/// Relative residual of the linear equations that is aimed at, of a history solved to a tolerance: what that leaves open is more.
+fn target(tolerance: f64) -> f64 {
+    (0.1 * tolerance).clamp(1e-13, 1e-9)
+}
+
+/// An increment.
+pub(super) struct Increment<'a> {
+    scene: &'a Scene<'a>,
+    load: &'a Load,
+    rule: Rule,
+    pub contact: Contact<'a>,
+    after: After<'a>,
+}
+
+impl<'a> Increment<'a> {
+    /// The increment that led to `now`, under a `load`.
+    pub fn new(
+        scene: &'a Scene<'a>,
+        (record, load): (&StepRecord, &'a Load),
+        now: &'a Solved,
+        [before, former]: [&'a Solved; 2],
+    ) -> Self {
+        let law = law_of(scene.plan, load.stage);
+        let end_point = record.work.end_point_increments > 0;
+        let zones: Vec<Zone> = now.contact.cells().map(|cell| now.zone_of(cell)).collect();
+        let contact = (&now.contact, &zones[..]);
+        let rule = Rule::new(scene, (load, end_point), [before, former], contact, Cells::All);
+        let contact = Contact::new(scene, (now, before), (load, &law, &rule));
+        let after = After::new(scene, [now, before], (&law, &rule));
+        Self { scene, load, rule, contact, after }
+    }
+
+    /// Its linear equations.
+    pub fn equations<'b>(&'b self, operators: &'b mut Operators) -> Linearised<'b> {
+        let cells = (self.contact.set, &self.contact.cells[..]);
+        Linearised::new(operators, cells, self.contact.prescribed, self.scene.region.len())
+    }
+
+    /// Changes after it, from those before it and before the one before; the residual of the linear equations where they are not solved.
+    pub fn forward(
+        &self,
+        equations: &mut Linearised<'_>,
+        [before, former]: [&Change; 2],
+        (drive, numbers): (&Drive, &[f64; FREEDOMS]),
+    ) -> Result<Change, f64> {
+        let mut next = Change::none(self.scene.region.len());
+        self.load.forward(before, numbers, &mut next);
+        let paths = self.rule.forward([before, former, &next], self.contact.set);
+        let asked = self.contact.asked(before, &next, (&paths, drive));
+        let solution = if self.contact.cells.is_empty() {
+            self.apart(before, &asked, drive)
+        } else {
+            self.solve(equations, asked, drive)?
+        };
+        self.after.forward((&solution, &paths, drive), before, &mut next);
+        Ok(next)
+    }
+
+    /// Backwards, from those after it: adds to those before it, before the one before, and to the numbers of the case. `drive.response` is
+    /// what the displacements of its tractions count, in all cells of the region.
+    pub fn transposed(
+        &self,
+        equations: &mut Linearised<'_>,
+        mut next: Change,
+        [before, former]: [&mut Change; 2],
+        (drive, numbers): (&mut Drive, &mut [f64; FREEDOMS]),
+    ) -> Result<(), f64> {
+        let mut paths = PathChange::none(self.contact.cells.len());
+        let solution = self.after.transposed(&mut next, before, (&mut paths, drive));
+        let asked = self.solve_transposed(equations, solution, drive)?;
+        self.contact.asked_transposed(&asked, [before, &mut next], (&mut paths, drive));
+        self.rule.transposed(paths, [before, former, &mut next], self.contact.set);
+        self.load.transposed(&next, before, numbers);
+        Ok(())
+    }
+
+    fn solve(
+        &self,
+        equations: &mut Linearised<'_>,
+        mut asked: Asked,
+        drive: &Drive,
+    ) -> Result<Solution, f64> {
+        let region = self.scene.region.len();
+        let mut moved = drive.response.clone();
+        let mut given = zeros(region);
+        if drive.friction != [0.0; 2] {
+            let [x, y] = self.contact.given(drive.friction, region);
+            given = [vec![0.0; region], x, y];
+            for (moved, by_given) in moved.iter_mut().zip(equations.displacements(&given)) {
+                add_scaled(moved, 1.0, &by_given);
+            }
+            let follows = equations.resultants(&given.each_ref().map(|field| self.contact.set.packed(field)));
+            for motion in 0..MOTIONS {
+                asked.amounts[motion] -= match self.contact.prescribed[motion] {
+                    Prescribed::Motion => 0.0,
+                    Prescribed::Resultant => follows[motion],
+                    Prescribed::FarEnd(give) => give * follows[motion],
+                };
+            }
+        }
+        let rows = self.contact.rows(&moved.each_ref().map(|field| self.contact.set.packed(field)));
+        for (asked, row) in asked.displacements.iter_mut().zip(&rows) {
+            add_scaled(asked, -1.0, row);
+        }
+        let right = equations.right_side(&asked.displacements, &asked.amounts);
+        let (found, reached) = krylov::solve(equations, &right, target(self.scene.plan.case.tolerance));
+        if !(reached <= ENOUGH) {
+            return Err(reached);
+        }
+        let (mut tractions, motions) = equations.parted(&found);
+        for (traction, given) in tractions.iter_mut().zip(&given) {
+            add_scaled(traction, 1.0, given);
+        }
+        let mut displacements = equations.displacements(&tractions);
+        for (displacement, by_response) in displacements.iter_mut().zip(&drive.response) {
+            add_scaled(displacement, 1.0, by_response);
+        }
+        Ok(Solution { tractions, displacements, motions })
+    }
+
+    fn solve_transposed(
+        &self,
+        equations: &mut Linearised<'_>,
+        solution: Solution,
+        drive: &mut Drive,
+    ) -> Result<Asked, f64> {
+        let region = self.scene.region.len();
+        let Solution { mut tractions, displacements, motions } = solution;
+        // The elastic response is its own transpose.
+        for (traction, by) in tractions.iter_mut().zip(equations.displacements(&displacements)) {
+            add_scaled(traction, 1.0, &by);
+        }
+        let right = equations.parted_transposed(&tractions, &motions);
+        let mut problem = Transposed(equations);
+        let (found, reached) = krylov::solve(&mut problem, &right, target(self.scene.plan.case.tolerance));
+        if !(reached <= ENOUGH) {
+            return Err(reached);
+        }
+        let (asked, amounts) = equations.right_side_transposed(&found);
+        let seen = self.contact.seen(&asked);
+        let on_region = seen.each_ref().map(|packed| {
+            let mut field = vec![0.0; region];
+            self.contact.set.scatter(packed, 1.0, &mut field);
+            field
+        });
+        if self.contact.cells.iter().any(|cell| cell.along != [0.0; 2]) {
+            for (traction, by) in tractions.iter_mut().zip(equations.displacements(&on_region)) {
+                add_scaled(traction, -1.0, &by);
+            }
+            let follow = std::array::from_fn(|motion| match self.contact.prescribed[motion] {
+                Prescribed::Motion => 0.0,
+                Prescribed::Resultant => -amounts[motion],
+                Prescribed::FarEnd(give) => -give * amounts[motion],
+            });
+            let mut by_resultants = zeros(self.contact.cells.len());
+            equations.resultants_transposed(&follow, &mut by_resultants);
+            let by_friction = {
+                let [_, x, y] = &mut tractions;
+                for (field, packed) in [&mut *x, y].into_iter().zip(&by_resultants[1..]) {
+                    for (place, cell) in self.contact.set.cells().enumerate() {
+                        field[cell] += packed[place];
+                    }
+                }
+                self.contact.given_transposed([&tractions[1], &tractions[2]])
+            };
+            for (friction, by) in drive.friction.iter_mut().zip(by_friction) {
+                *friction += by;
+            }
+        }
+        for ((response, displacement), seen) in drive.response.iter_mut().zip(displacements).zip(on_region) {
+            add_scaled(response, 1.0, &displacement);
+            add_scaled(response, -1.0, &seen);
+        }
+        Ok(Asked { displacements: asked, amounts })
+    }
+
+    /// Changes of bodies that do not touch: motions that are prescribed, and an approach to the first touch where a force is.
+    fn apart(&self, before: &Change, asked: &Asked, drive: &Drive) -> Solution {
+        let gaps = self.scene.undeformed.iter().zip(&drive.gap);
+        let lowest = gaps.fold(
+            (f64::INFINITY, 0.0),
+            |lowest, (gap, change)| {
+                if *gap < lowest.0 { (*gap, *change) } else { lowest }
+            },
+        );
+        let motions = std::array::from_fn(|motion| match self.contact.prescribed[motion] {
+            Prescribed::Motion | Prescribed::FarEnd(_) => asked.amounts[motion],
+            Prescribed::Resultant if motion == 0 => lowest.1,
+            Prescribed::Resultant => before.motions[motion],
+        });
+        let cells = self.scene.region.len();
+        Solution { tractions: zeros(cells), displacements: zeros(cells), motions }
+    }
+}

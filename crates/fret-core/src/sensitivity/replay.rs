@@ -1,0 +1,112 @@
+//! A history once more, from the states that its run left: what each increment prescribed, and what was solved.
+
+use ndarray::Array2;
+
+use super::linearised::{Operators, displacements, zeros};
+use super::loads::{Load, Prescribed};
+use super::rule::{Cells, Rule};
+use super::scene::{Scene, Snapshot};
+use super::solved::{Solved, at, deep_by, moved_by};
+use crate::model::{ContactState, Zone};
+use crate::solver::{ContactSet, rate_since_touch};
+
+/// Goes through a history again, increment by increment.
+pub(super) struct Replay<'a> {
+    scene: &'a Scene<'a>,
+    prescribed: Prescribed<'a>,
+    untouched: ContactState,
+    pub start: Solved,
+}
+
+/// What comes after the last increments: what it prescribes, and what was solved; `None` where no load changes.
+pub(super) struct Next {
+    pub load: Load,
+    pub solved: Option<Solved>,
+}
+
+impl<'a> Replay<'a> {
+    pub fn new(scene: &'a Scene<'a>) -> Self {
+        let untouched = ContactState::untouched(scene.grid.cells());
+        Self { scene, prescribed: Prescribed::new(scene), untouched, start: Solved::untouched(scene) }
+    }
+
+    /// The next increment, after `before`, which came from `former`, both `None` where there is none but the start; `state`: the one before.
+    pub fn next(
+        &mut self,
+        (snapshot, state): (&Snapshot, Option<&ContactState>),
+        past: [Option<&Solved>; 2],
+        operators: &mut Operators,
+    ) -> Next {
+        let scene = self.scene;
+        let [before, former] = past.map(|solved| solved.unwrap_or(&self.start));
+        let state = state.unwrap_or(&self.untouched);
+        let reached = before.reached(scene);
+        let load = self.prescribed.next(snapshot.record.stage, (state, &reached), before.load.as_ref());
+        let solved =
+            (!before.stands(&load)).then(|| solved(scene, snapshot, (&load, [before, former]), operators));
+        Next { load, solved }
+    }
+}
+
+/// An increment in the region, from what the run left of it.
+fn solved(
+    scene: &Scene<'_>,
+    snapshot: &Snapshot,
+    (load, [before, former]): (&Load, [&Solved; 2]),
+    operators: &mut Operators,
+) -> Solved {
+    let Snapshot { record, state } = snapshot;
+    let region = scene.region;
+    let tractions = [&state.pressure, &state.shear[0], &state.shear[1]].map(|field| region.gather(field));
+    let moved = if tractions[0].iter().any(|p| *p > 0.0) {
+        displacements(&mut operators.compliance, operators.frictional, &tractions)
+    } else {
+        zeros(region.len())
+    };
+    let motions = scene.motions(state);
+    let contact = ContactSet::loaded(&tractions[0]);
+    let end_point = record.work.end_point_increments > 0;
+    let rule = Rule::new(scene, (load, end_point), [before, former], (&contact, &[]), Cells::Entered);
+    let mut solved = Solved {
+        gap: scene.undeformed.clone(),
+        zone: zones(scene, state),
+        motions,
+        contact,
+        slid: [vec![0.0; region.len()], vec![0.0; region.len()]],
+        drift: [vec![0.0; region.len()], vec![0.0; region.len()]],
+        from: load.from,
+        load: Some(load.step),
+        pace: rule.pace.map(|pace| pace.loads),
+        knows_touch: before.went_on() && rule.pace.is_some_and(|pace| pace.edge.is_some()),
+        displacements: moved,
+        tractions,
+    };
+    for (cell, gap) in solved.gap.iter_mut().enumerate() {
+        let place = scene.places[cell];
+        *gap = *gap + solved.displacements[0][cell] - deep_by(&motions, place);
+        if scene.is_frictional() {
+            let moved = moved_by(&motions, place);
+            for axis in 0..2 {
+                solved.slid[axis][cell] = moved[axis] - solved.displacements[1 + axis][cell];
+                solved.drift[axis][cell] = solved.slid[axis][cell] - before.slid[axis][cell];
+            }
+        }
+    }
+    if rule.pace.is_some() {
+        for (place, cell) in solved.contact.cells().enumerate() {
+            if before.zone_of(cell) == Zone::Open {
+                let ahead = at(&rule.ahead, place);
+                let [x, y] = rate_since_touch(at(&solved.drift, cell), ahead, rule.touch[place]);
+                (solved.drift[0][cell], solved.drift[1][cell]) = (x, y);
+            }
+        }
+    }
+    solved
+}
+
+/// Zones in the region.
+pub(super) fn zones(scene: &Scene<'_>, state: &ContactState) -> Array2<Zone> {
+    let shape = scene.region.shape;
+    let zones = scene.region.gather_map(&state.zone, |zone| *zone);
+    Array2::from_shape_vec(shape, zones).unwrap_or_else(|_| Array2::default(shape))
+}

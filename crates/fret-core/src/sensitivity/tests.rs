@@ -1,0 +1,358 @@
+//! Every term of a linearised increment, and the whole of it, has the transpose that it goes backwards by: `<y, A x> = <A^T y, x>` on random vectors.
+
+use super::after::After;
+use super::cell::MOTIONS;
+use super::change::{Change, Solution};
+use super::contact::{Asked, Contact, Drive};
+use super::gradient::Snapshots;
+use super::increment::Increment;
+use super::krylov::LinearProblem;
+use super::linearised::Fields;
+use super::loads::Load;
+use super::replay::Replay;
+use super::rule::{Cells, PathChange, Rule};
+use super::scene::{Scene, Snapshot};
+use super::solved::{Solved, law_of};
+use super::transposed::Transposed;
+use crate::case::Case;
+use crate::fields::dot;
+use crate::model::Zone;
+use crate::model::controls::FREEDOMS;
+use crate::plan::Plan;
+use crate::random::Random;
+use crate::run::{PairCompliance, Silent, Simulation};
+
+/// Two coatings under an elastic body, forces that grow together, slip that turns, the far end of a spring, a load that falls; bound by a strength.
+const COUPLED: &str = r#"
+[grid]
+cells = [16, 16]
+size = [2.0, 2.0]
+[upper]
+substrate = { young = 5.0, poisson = 0.2 }
+[lower]
+coatings = [{ thickness = 0.3, young = 3.0, poisson = 0.35 }]
+substrate = { young = 1.0, poisson = 0.3 }
+[profile.ellipsoid]
+radius_x = 4.0
+radius_y = 6.0
+[friction]
+coefficient = 0.25
+max_shear = 0.03
+[rig]
+tangential_stiffness = 2.0
+[solver]
+tolerance = 1e-11
+[[load]]
+normal_force = 0.15
+tangential_force = [0.02, 0.004]
+increments = 4
+ramp = "cubic"
+[[load]]
+actuator = [0.02, 0.015]
+increments = 3
+[[load]]
+normal_force = 0.1
+shift = [0.0, 0.0]
+increments = 3
+"#;
+
+/// A rigid ball on a like half-space, on a quarter of its grid; tilted, torsion on the whole.
+const SIMILAR: &str = r"
+[grid]
+cells = [24, 24]
+size = [3.0, 3.0]
+[upper]
+rigid = true
+[lower]
+substrate = { young = 1.0, poisson = 0.5 }
+[profile.sphere]
+radius = 5.0
+[friction]
+coefficient = 0.3
+[solver]
+tolerance = 1e-11
+[[load]]
+normal_force = 0.15
+increments = 3
+[[load]]
+tangential_force = [0.03, 0.0]
+cycles = 1
+increments = 8
+";
+
+fn vector(random: &mut Random, size: usize) -> Vec<f64> {
+    (0..size).map(|_| random.between(-1.0, 1.0)).collect()
+}
+
+fn array<const N: usize>(random: &mut Random) -> [f64; N] {
+    std::array::from_fn(|_| random.between(-1.0, 1.0))
+}
+
+fn fields(random: &mut Random, size: usize) -> Fields {
+    [(); 3].map(|()| vector(random, size))
+}
+
+fn change(random: &mut Random, cells: usize) -> Change {
+    let mut tangential = || [(); 2].map(|()| vector(random, cells));
+    let [shear, slid, drift] = [tangential(), tangential(), tangential()];
+    Change {
+        pressure: vector(random, cells),
+        shear,
+        gap: vector(random, cells),
+        slid,
+        drift,
+        motions: array(random),
+        energies: array(random),
+        reached: [(); 6].map(|()| array(random)),
+        start: array(random),
+        held: array(random),
+        from: array(random),
+        load: array(random),
+        ratio: random.between(-1.0, 1.0),
+    }
+}
+
+fn drive(random: &mut Random, cells: usize) -> Drive {
+    let (gap, response) = (vector(random, cells), fields(random, cells));
+    Drive { gap, friction: array(random), rig: array(random), response }
+}
+
+fn paths(random: &mut Random, cells: usize) -> PathChange {
+    let mut found = PathChange::none(cells);
+    found.loads = random.between(-1.0, 1.0);
+    for field in found.turn.iter_mut().chain(&mut found.ahead).chain([&mut found.touch]) {
+        *field = vector(random, cells);
+    }
+    found
+}
+
+fn of_fields(a: &Fields, b: &Fields) -> f64 {
+    a.iter().zip(b).map(|(a, b)| dot(a, b)).sum()
+}
+
+fn of_changes(a: &Change, b: &Change) -> f64 {
+    a.parts().zip(b.parts()).map(|(a, b)| dot(a, b)).sum()
+}
+
+fn of_drives(a: &Drive, b: &Drive) -> f64 {
+    dot(&a.gap, &b.gap)
+        + dot(&a.friction, &b.friction)
+        + dot(&a.rig, &b.rig)
+        + of_fields(&a.response, &b.response)
+}
+
+fn of_paths(a: &PathChange, b: &PathChange) -> f64 {
+    let pairs = a.turn.iter().chain(&a.ahead).zip(b.turn.iter().chain(&b.ahead));
+    a.loads * b.loads + dot(&a.touch, &b.touch) + pairs.map(|(a, b)| dot(a, b)).sum::<f64>()
+}
+
+/// Checks the equality of two products, to rounding of their size: the sums have a few thousand parts.
+fn alike(term: &str, forward: f64, backward: f64, bound: f64) {
+    assert!(forward != 0.0, "{term}: nothing");
+    let off = (forward - backward).abs() / (1.0 + forward.abs());
+    assert!(off < bound, "{term}: {forward:e} {backward:e} {off:.1e}");
+}
+
+/// An increment with all that its terms are made from.
+struct At<'a> {
+    scene: &'a Scene<'a>,
+    snapshot: &'a Snapshot,
+    load: &'a Load,
+    now: &'a Solved,
+    past: [&'a Solved; 2],
+}
+
+/// Shows every increment of a history that is linearised.
+fn each_increment(text: &str, mut show: impl FnMut(At<'_>, &mut super::linearised::Operators)) {
+    let plan = Plan::new(Case::from_toml(text, "case.toml").unwrap()).unwrap();
+    let mut run = Snapshots { steps: Vec::new(), cycles: Vec::new(), observer: &mut Silent };
+    Simulation::new(&plan).run(&mut run).unwrap();
+    let steps = run.steps;
+    let scene = Scene::new(&plan, &steps);
+    let compliance = PairCompliance::of(&plan);
+    let mut operators = scene.operators(&compliance.response, compliance.table.as_ref()).unwrap();
+    let mut replay = Replay::new(&scene);
+    let mut past = [replay.start.clone(), replay.start.clone()];
+    for (number, snapshot) in steps.iter().enumerate() {
+        let state = number.checked_sub(1).map(|last| &steps[last].state);
+        let next = replay.next((snapshot, state), past.each_ref().map(Some), &mut operators);
+        let now = next.solved.unwrap();
+        let at = At { scene: &scene, snapshot, load: &next.load, now: &now, past: past.each_ref() };
+        show(at, &mut operators);
+        let [before, former] = &mut past;
+        *former = std::mem::replace(before, now);
+    }
+}
+
+fn rule_of(at: &At<'_>) -> Rule {
+    let zones: Vec<Zone> = at.now.contact.cells().map(|cell| at.now.zone_of(cell)).collect();
+    let end_point = at.snapshot.record.work.end_point_increments > 0;
+    Rule::new(at.scene, (at.load, end_point), at.past, (&at.now.contact, &zones), Cells::All)
+}
+
+/// 1e-12: rounding of sums of some thousand products, whose parts cancel to a hundredth.
+#[test]
+fn every_term_goes_backwards_by_its_transpose() {
+    let mut random = Random::seeded(41);
+    let mut kinds = [0; 3];
+    for text in [COUPLED, SIMILAR] {
+        each_increment(text, |at, operators| {
+            let cells = at.scene.region.len();
+            let contact_cells = at.now.contact.len();
+            let rule = rule_of(&at);
+            for (sum, kind) in kinds.iter_mut().zip(rule.kinds()) {
+                *sum += kind;
+            }
+            let random = &mut random;
+            loads(random, &at, cells);
+            paths_of_slip(random, &at, &rule);
+            let law = law_of(at.scene.plan, at.load.stage);
+            let contact = Contact::new(at.scene, (at.now, at.past[0]), (at.load, &law, &rule));
+            what_is_asked(random, &contact, (cells, contact_cells));
+            let after = After::new(at.scene, [at.now, at.past[0]], (&law, &rule));
+            what_follows(random, &after, (cells, contact_cells));
+            equations(random, &contact, operators, cells);
+        });
+    }
+    assert!(kinds.iter().all(|kind| *kind > 10), "cells that slipped, stuck, were open: {kinds:?}");
+}
+
+fn loads(random: &mut Random, at: &At<'_>, cells: usize) {
+    let before = change(random, cells);
+    let numbers: [f64; FREEDOMS] = array(random);
+    let mut next = Change::none(cells);
+    at.load.forward(&before, &numbers, &mut next);
+    let y = change(random, cells);
+    let only_loads =
+        Change { start: y.start, held: y.held, from: y.from, load: y.load, ..Change::none(cells) };
+    let (mut back, mut of_numbers) = (Change::none(cells), [0.0; FREEDOMS]);
+    at.load.transposed(&only_loads, &mut back, &mut of_numbers);
+    let backward = of_changes(&back, &before) + dot(&of_numbers, &numbers);
+    alike("loads", of_changes(&only_loads, &next), backward, 1e-12);
+}
+
+fn paths_of_slip(random: &mut Random, at: &At<'_>, rule: &Rule) {
+    if rule.kinds() == [0; 3] {
+        return;
+    }
+    let cells = at.scene.region.len();
+    let [before, former, next] = [(); 3].map(|()| change(random, cells));
+    let y = paths(random, at.now.contact.len());
+    let forward = of_paths(&y, &rule.forward([&before, &former, &next], &at.now.contact));
+    let [mut to_before, mut to_former, mut to_next] = [(); 3].map(|()| Change::none(cells));
+    rule.transposed(y, [&mut to_before, &mut to_former, &mut to_next], &at.now.contact);
+    let pairs = [(&to_before, &before), (&to_former, &former), (&to_next, &next)];
+    alike("paths", forward, pairs.map(|(a, b)| of_changes(a, b)).iter().sum(), 1e-12);
+}
+
+fn what_is_asked(random: &mut Random, contact: &Contact<'_>, (cells, contact_cells): (usize, usize)) {
+    let [before, next] = [(); 2].map(|()| change(random, cells));
+    let (of_paths_in, mut of_drive) = (paths(random, contact_cells), drive(random, cells));
+    of_drive.friction = [0.0; 2];
+    let asked = contact.asked(&before, &next, (&of_paths_in, &of_drive));
+    let mut y = Asked { displacements: fields(random, contact_cells), amounts: array(random) };
+    for (place, cell) in contact.cells.iter().enumerate() {
+        if cell.row().is_some() {
+            y.displacements[2][place] = 0.0; // there is one row across the shear
+        }
+    }
+    let forward = of_fields(&y.displacements, &asked.displacements) + dot(&y.amounts, &asked.amounts);
+    let [mut to_before, mut to_next] = [(); 2].map(|()| Change::none(cells));
+    let (mut to_paths, mut to_drive) = (PathChange::none(contact_cells), Drive::none(cells));
+    contact.asked_transposed(&y, [&mut to_before, &mut to_next], (&mut to_paths, &mut to_drive));
+    let backward = of_changes(&to_before, &before)
+        + of_changes(&to_next, &next)
+        + of_paths(&to_paths, &of_paths_in)
+        + of_drives(&to_drive, &of_drive);
+    alike("asked", forward, backward, 1e-12);
+    let (friction, field) = (array(random), [(); 2].map(|()| vector(random, cells)));
+    let given = contact.given(friction, cells);
+    let back = contact.given_transposed([&field[0], &field[1]]);
+    let forward = dot(&given[0], &field[0]) + dot(&given[1], &field[1]);
+    if contact.cells.iter().any(|cell| cell.along != [0.0; 2]) {
+        alike("given", forward, dot(&back, &friction), 1e-12);
+    }
+}
+
+fn what_follows(random: &mut Random, after: &After<'_>, (cells, contact_cells): (usize, usize)) {
+    let before = change(random, cells);
+    let (of_paths_in, of_drive) = (paths(random, contact_cells), drive(random, cells));
+    let solution = Solution {
+        tractions: fields(random, cells),
+        displacements: fields(random, cells),
+        motions: array(random),
+    };
+    let mut next = Change::none(cells);
+    after.forward((&solution, &of_paths_in, &of_drive), &before, &mut next);
+    let none = [0.0; FREEDOMS];
+    let y = Change { start: none, held: none, from: none, load: none, ..change(random, cells) };
+    let forward = of_changes(&y, &next);
+    let (mut to_paths, mut to_drive) = (PathChange::none(contact_cells), Drive::none(cells));
+    let mut to_before = Change::none(cells);
+    let back = after.transposed(&mut y.clone(), &mut to_before, (&mut to_paths, &mut to_drive));
+    let backward = of_changes(&to_before, &before)
+        + of_paths(&to_paths, &of_paths_in)
+        + of_drives(&to_drive, &of_drive)
+        + of_fields(&back.tractions, &solution.tractions)
+        + of_fields(&back.displacements, &solution.displacements)
+        + dot(&back.motions, &solution.motions);
+    alike("after", forward, backward, 1e-12);
+}
+
+/// The equations and their approximate inverse, with the steps before and after them.
+fn equations(
+    random: &mut Random,
+    contact: &Contact<'_>,
+    operators: &mut super::linearised::Operators,
+    cells: usize,
+) {
+    let set = (contact.set, &contact.cells[..]);
+    let mut problem = super::linearised::Linearised::new(operators, set, contact.prescribed, cells);
+    let size = problem.len();
+    let (x, y) = (vector(random, size), vector(random, size));
+    let (mut forward, mut back) = (vec![0.0; size], vec![0.0; size]);
+    problem.apply(&x, &mut forward);
+    Transposed(&mut problem).apply(&y, &mut back);
+    alike("equations", dot(&y, &forward), dot(&back, &x), 1e-12);
+    problem.invert(&x, &mut forward);
+    Transposed(&mut problem).invert(&y, &mut back);
+    // The small matrix of the motions is inverted twice, by elimination.
+    alike("approximate inverse", dot(&y, &forward), dot(&back, &x), 1e-9);
+    let (asked, amounts) = (fields(random, contact.cells.len()), array::<MOTIONS>(random));
+    let right = problem.right_side(&asked, &amounts);
+    let (to_asked, to_amounts) = problem.right_side_transposed(&y);
+    alike("right side", dot(&right, &y), of_fields(&to_asked, &asked) + dot(&to_amounts, &amounts), 1e-12);
+    let (tractions, motions) = problem.parted(&x);
+    let (on_tractions, on_motions) = (fields(random, cells), array::<MOTIONS>(random));
+    let unknowns = problem.parted_transposed(&on_tractions, &on_motions);
+    let forward = of_fields(&on_tractions, &tractions) + dot(&on_motions, &motions);
+    alike("tractions", forward, dot(&unknowns, &x), 1e-12);
+}
+
+/// The whole of an increment. 1e-10: the linear equations, solved to 1e-12 both ways, times their condition.
+#[test]
+fn an_increment_goes_backwards_by_its_transpose() {
+    let mut random = Random::seeded(42);
+    for text in [COUPLED, SIMILAR] {
+        each_increment(text, |at, operators| {
+            let cells = at.scene.region.len();
+            let increment = Increment::new(at.scene, (&at.snapshot.record, at.load), at.now, at.past);
+            let mut equations = increment.equations(operators);
+            let [before, former, y] = [(); 3].map(|()| change(&mut random, cells));
+            let (of_drive, numbers) = (drive(&mut random, cells), array(&mut random));
+            let next = increment.forward(&mut equations, [&before, &former], (&of_drive, &numbers)).unwrap();
+            let [mut to_before, mut to_former] = [(); 2].map(|()| Change::none(cells));
+            let (mut to_drive, mut to_numbers) = (Drive::none(cells), [0.0; FREEDOMS]);
+            let to = (&mut to_drive, &mut to_numbers);
+            let found = increment.transposed(&mut equations, y.clone(), [&mut to_before, &mut to_former], to);
+            found.unwrap();
+            let backward = of_changes(&to_before, &before)
+                + of_changes(&to_former, &former)
+                + of_drives(&to_drive, &of_drive)
+                + dot(&to_numbers, &numbers);
+            let size: f64 = of_changes(&y, &y).sqrt() * of_changes(&next, &next).sqrt();
+            let off = (of_changes(&y, &next) - backward).abs() / size;
+            assert!(off < 1e-10, "increment {}: {off:.1e}", at.snapshot.record.increment);
+        });
+    }
+}
