@@ -332,7 +332,7 @@ class Output(TypedDict):
     fields: NotRequired[Sequence[str]]
     """
     Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`" (of bodies that move against each other also of each), "debris",
-    "friction". Default: pressure, shear, slip, zone.
+    "`friction_work`" (energy that friction dissipates in the increment by area), "friction". Default: pressure, shear, slip, zone.
     """
 
 

@@ -92,7 +92,7 @@ def test_a_scar_is_drawn_as_map_section_and_animation(scar: fretting.History, tm
 def test_every_field_has_words_for_its_picture(name: str) -> None:
     words = label(name)
     assert words
-    assert name == "zone" or words.endswith(("[pressure]", "[length]", "[-]"))
+    assert name == "zone" or words.endswith(("[pressure]", "[length]", "[pressure x length]", "[-]"))
 
 
 def test_an_animation_has_a_picture_of_every_kept_increment(history: fretting.History, tmp_path: Path) -> None:
