@@ -93,6 +93,8 @@ impl Past {
                     (Control::Force(a), Control::Force(b)) | (Control::Motion(a), Control::Motion(b)) => {
                         b - a
                     }
+                    // No force and no motion are the same.
+                    (a, b) if a.value() == 0.0 && b.value() == 0.0 => 0.0,
                     _ => return None,
                 };
             }

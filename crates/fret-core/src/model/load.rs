@@ -110,10 +110,12 @@ impl LoadStep {
     }
 
     /// Change of what is prescribed to another step that prescribes the same kinds, each in its own unit, for each degree of freedom.
-    /// `None` where the kinds differ.
+    /// `None` where the kinds differ; no force and no motion are the same.
     pub fn change_to(&self, other: &Self) -> Option<[f64; FREEDOMS]> {
         let (from, to) = (self.controls(), other.controls());
-        let are_alike = from.iter().zip(&to).all(|(from, to)| discriminant(from) == discriminant(to));
+        let are_nothing = |from: &Control, to: &Control| from.value() == 0.0 && to.value() == 0.0;
+        let are_alike = |(from, to)| discriminant(from) == discriminant(to) || are_nothing(from, to);
+        let are_alike = from.iter().zip(&to).all(are_alike);
         are_alike.then(|| std::array::from_fn(|freedom| to[freedom].value() - from[freedom].value()))
     }
 
