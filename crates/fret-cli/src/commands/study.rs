@@ -132,7 +132,7 @@ pub fn studied(
     );
     let measured = if table::shows_errors(&lines) {
         let shown = |quantity| table::shows_errors_of(&lines, quantity);
-        [words::measured_by(&reference, &shown), words::without_order(&reference)]
+        [words::measured_by(&reference, &shown), words::without_order(&reference, &shown)]
             .join("\n")
             .trim_end()
             .to_owned()

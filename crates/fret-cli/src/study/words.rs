@@ -38,11 +38,11 @@ pub fn measured_by(reference: &Reference, shown: &dyn Fn(Quantity) -> bool) -> S
     said.collect::<Vec<_>>().join("\n")
 }
 
-/// Which quantities have no observed order, and why; a sentence each, none where all have one.
-pub fn without_order(reference: &Reference) -> String {
+/// Which quantities, of those whose errors are shown, have no observed order, and why; a sentence each, none where all have one.
+pub fn without_order(reference: &Reference, shown: &dyn Fn(Quantity) -> bool) -> String {
     let of = |convergence: Convergence| {
         let is_one = |quantity: &Quantity| {
-            let is_told = convergence == Convergence::NoLimit || happens(reference, *quantity);
+            let is_told = convergence == Convergence::NoLimit || shown(*quantity);
             reference.convergence(*quantity) == convergence && is_told
         };
         let names: Vec<&str> = Quantity::ALL.into_iter().filter(is_one).map(name).collect();

@@ -45,6 +45,7 @@ impl Written {
     }
 }
 
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
 fn bounded<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     Written::of(*value).serialize(serializer)
 }
