@@ -115,6 +115,19 @@ fn a_patch_without_friction_carries_no_shear_and_the_rest_slides_at_its_own_boun
     assert!(matches!(error, RunError::AboveSliding { .. }), "{error}");
 }
 
+/// Where all cells in contact are without friction nothing carries a force, however much friction there is elsewhere.
+#[test]
+fn a_contact_on_a_patch_without_friction_carries_no_force() {
+    let sphere = sphere();
+    let map = Array2::from_shape_fn((32, 32), |(i, j)| if i == 0 && j == 0 { 0.3 } else { 0.0 });
+    let head = sphere.pressed(0.8, 2, "cubic").replace("coefficient = 0.3", "map = { array = 0 }");
+    let pulled = sphere.pulled(&head, 1e-3, 1, None);
+    let attachments = Attachments { arrays: std::slice::from_ref(&map), ..Attachments::none() };
+    let plan = Plan::new(Case::from_toml_with(&pulled, "case.toml", attachments).unwrap()).unwrap();
+    let error = Simulation::new(&plan).run(&mut Silent).unwrap_err();
+    assert!(matches!(error, RunError::AboveSliding { .. }), "{error}");
+}
+
 #[test]
 fn friction_that_falls_lets_go_and_friction_that_rises_changes_nothing() {
     let sphere = sphere();

@@ -45,3 +45,17 @@ fn small_random_cases_are_certified_or_refused_for_a_reason() {
 fn the_first_of_the_extreme_cases_are_certified_or_refused_for_a_reason() {
     println!("{}", certified_or_refused(0..100, [16, 40], 0));
 }
+
+/// A force of nothing that becomes a shift of nothing; friction that falls while loads stand; a force on cells without friction.
+#[test]
+fn cases_that_were_wrong_once_are_certified_or_refused() {
+    for (seeds, cells) in [([0, 360, 1933], [16, 40]), ([11190, 11617, 11866], [48, 96])] {
+        for seed in seeds {
+            let Extreme { outcome, text, .. } = run(seed, cells);
+            assert!(
+                matches!(outcome, Outcome::Certified | Outcome::Refused(_)),
+                "{seed}: {outcome:?}\n{text}"
+            );
+        }
+    }
+}

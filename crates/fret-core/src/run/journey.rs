@@ -47,10 +47,10 @@ impl<'a> Journey<'a> {
         &self.plan.case
     }
 
-    /// The law of friction that the case has for the stage at work.
-    fn given_friction(&self) -> &'a CoulombFriction {
+    /// The friction law that the case has for a stage, unless friction evolves.
+    fn friction_of(&self, stage: usize) -> &'a CoulombFriction {
         let case = self.case();
-        let mut latest_first = case.stages.iter().take(self.place.stage + 1).rev();
+        let mut latest_first = case.stages.iter().take(stage + 1).rev();
         latest_first.find_map(|stage| stage.friction.as_ref()).unwrap_or(&case.friction)
     }
 
@@ -97,10 +97,13 @@ impl<'a> Journey<'a> {
             self.surfaces.begin_stage();
         }
         let friction = match &self.surfaces.evolving {
-            None => self.plan.symmetry.part_of_friction(self.given_friction()),
+            None => self.plan.symmetry.part_of_friction(self.friction_of(number)),
             Some(evolving) => Cow::Owned(evolving.friction().clone()),
         };
         self.solver.set_friction(friction);
+        if begins && self.friction_of(number) != self.friction_of(number.saturating_sub(1)) {
+            self.solver.solver.friction_changes_at_once();
+        }
         self.surfaces.take_friction(self.solver.solver.friction());
         let place = &self.place;
         let steps = if begins {

@@ -84,6 +84,8 @@ pub struct ContactSolver<'a> {
     grid: SurfaceGrid,
     undeformed: Array2<f64>,
     friction: Cow<'a, CoulombFriction>,
+    /// Friction is another than that under which the last state slid.
+    friction_changed: bool,
     coupling: Coupling,
     response: HeldResponse<'a>,
     settings: SolverSettings,
@@ -140,6 +142,7 @@ impl<'a> ContactSolver<'a> {
             grid,
             undeformed,
             friction: Cow::Borrowed(friction),
+            friction_changed: false,
             coupling,
             response: HeldResponse::Kept(response),
             settings,
@@ -243,6 +246,12 @@ impl<'a> ContactSolver<'a> {
     /// Another friction law from the next increment on.
     pub fn set_friction(&mut self, friction: Cow<'a, CoulombFriction>) {
         self.friction = friction;
+    }
+
+    /// The friction law changed at once, between the last increment and the next: where no load changes surfaces slide all the same, and later
+    /// increments do not go on from those before.
+    pub fn friction_changes_at_once(&mut self) {
+        self.friction_changed = true;
     }
 
     /// Goes on with another undeformed gap [length], shape of the grid: the displacements known so far hold no longer. Tractions, loads

@@ -195,7 +195,8 @@ fn off_equilibrium(problem: &IncrementProblem<'_>, found: &Resultants, limit: f6
     };
     let lengths = [1.0, 1.0, positions.length];
     let found = [found.tangential[0], found.tangential[1], found.moment];
-    (0..3).filter(|&mode| limit > 0.0 && tangential.held()[mode]).fold(normal, |worst, mode| {
-        worst.max((found[mode] / lengths[mode] - tangential.resultant[mode] * area).abs() / limit)
+    (0..3).filter(|&mode| tangential.held()[mode]).fold(normal, |worst, mode| {
+        let off = (found[mode] / lengths[mode] - tangential.resultant[mode] * area).abs();
+        if off == 0.0 { worst } else { worst.max(off / limit) } // all of it where nothing rubs
     })
 }

@@ -114,6 +114,8 @@ fn words_of_a_cycle_have_their_ranges() {
         refused(&trapezoid(dwell), &[], "must lie between 0.001 and 0.499", dwell);
     }
     refused(&cycle("waveform = \"sine\"\ndwell = 0.2"), &[], "only a trapezoid", "0.2");
+    let far = "[1e-6, 1e308]"; // energies of such a motion are beyond all numbers
+    refused(&then(&format!("shift = {far}\nincrements = 8\ncycles = 1\n")), &[], "1e100 at the most", far);
     read(&cycle("envelope = [0.0, 1.0]"), &[]);
     for envelope in ["[0.0, inf]", "[nan, 1.0]"] {
         refused(&cycle(&format!("envelope = {envelope}")), &[], "both shares must be finite", envelope);
