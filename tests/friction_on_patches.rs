@@ -115,6 +115,26 @@ fn a_patch_without_friction_carries_no_shear_and_the_rest_slides_at_its_own_boun
     assert!(matches!(error, RunError::AboveSliding { .. }), "{error}");
 }
 
+/// Friction that falls at once under loads that stand, and forces that change after it, or from the same moment on: with the length of the first
+/// increment after it the difference goes away, which an extrapolation of slip from the time before would not.
+#[test]
+fn friction_that_falls_with_the_loads_ends_where_it_ends_before_them() {
+    let sphere = sphere();
+    let held = sphere.pulled(&sphere.pressed(0.8, 4, "cubic"), 0.4, 4, None);
+    let ended = |pause: &str, increments: usize| {
+        let stage = if pause.is_empty() { "friction = 0.2\n" } else { "" };
+        let more = sphere.pulled(&format!("{held}{pause}"), 0.45, increments, None);
+        let at = more.rfind("[[load]]\n").unwrap() + "[[load]]\n".len();
+        let history = solved(&format!("{}{stage}{}", &more[..at], &more[at..]));
+        history.steps.last().unwrap().shift[0]
+    };
+    let apart = [8, 32].map(|increments| {
+        let after = ended("[[load]]\nfriction = 0.2\nincrements = 1\n", increments);
+        ended("", increments) / after - 1.0
+    });
+    assert!(apart[1].abs() < 0.4 * apart[0].abs() && apart[1].abs() < 1e-3, "{apart:?}");
+}
+
 /// Where all cells in contact are without friction nothing carries a force, however much friction there is elsewhere.
 #[test]
 fn a_contact_on_a_patch_without_friction_carries_no_force() {

@@ -166,7 +166,16 @@ fn derivatives_that_would_be_wrong_are_refused() {
             "load[1].tangential_force[1]",
             "it is 0",
         ),
-        // like bodies, whose pressure and shear would act on each other with another constant
+        // like bodies, coupled with other constants: with torsion that is of first order even under a sphere
+        (
+            ball(
+                "0.3",
+                like,
+                &stage("tangential_force = [0.01, 0.02]\ntwist_moment = 0.004\nincrements = 3"),
+            ),
+            "upper.substrate.young",
+            "not symmetric",
+        ),
         (
             ball("0.3", like, "[[load]]\nnormal_force = 0.1\ntilt = [0.02, 0.01]\nincrements = 2\n"),
             "upper.substrate.young",
@@ -187,6 +196,11 @@ fn derivatives_that_would_be_wrong_are_refused() {
         let refused = found(&planned(&case), &["max_pressure"], &[by]).unwrap_err().to_string();
         assert!(refused.contains(word), "{by}: {refused}");
     }
+    // odd in a mirror: their derivative would be 0
+    let slid = ball("0.3", like, &stage("tangential_force = [0.01, 0.0]\nincrements = 2"));
+    let refused = found(&planned(&slid), &["tilt_moment_x"], &["upper.substrate.young"]);
+    assert!(refused.unwrap_err().to_string().contains("tilt_moment_x has no derivative"));
+    assert!(found(&planned(&slid), &["shift_x"], &["upper.substrate.young"]).is_ok());
     let wave = "[grid]\ncells = [64, 4]\nsize = [1.0, 0.1]\nperiodic = true\n[upper]\nrigid = true\n[lower]\nsubstrate = { young = 1.0, poisson = 0.3 }\n\
                 [profile.wave]\namplitude = 0.01\nwavelength_x = 1.0\n[friction]\ncoefficient = 0.4\n[[load]]\nmean_gap = 6e-3\nincrements = 2\n";
     let refused =

@@ -33,7 +33,7 @@ def verification_row(of: Measured) -> list[str]:
     return [
         "**experiment**",
         "[five published tests](@trust/experiments.md)",
-        "rebound of a ball at 20 to 60 / below 10 degrees; wear scar, depth / half-width",
+        "rebound of a ball at 20 to 60 / below 10 degrees; wear scar (small displacement), depth / half-width",
         "48 x 48; 320",
         f"{missed(of, 'tangential_restitution', 19, 70):.3f} / up to {small:.2f} too low; {percent(ours['depth'] / seen['depth'] - 1)} / "
         f"{percent(ours['half_width'] / seen['half_width'] - 1)}",

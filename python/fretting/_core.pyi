@@ -174,7 +174,7 @@ def pulled_back(
     weights: list[tuple[str, float]],
     by: list[str],
     threads: int | None,
-) -> tuple[float, list[tuple[str, float]]]: ...
+) -> list[tuple[str, float]]: ...
 def identify(
     log: tuple[str, bytes],
     case: Case,

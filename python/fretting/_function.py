@@ -1,7 +1,9 @@
 """Results of a case as a function of some of its numbers: what differentiable programs and optimisers call."""
 
 import copy
+import re
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 
@@ -23,13 +25,24 @@ class Results:
         if not self.of or not self.by:
             raise ValueError("of, by: expected at least one result and one number of the case")
         self._table = _case.table_of(case)
+        self._places = [re.findall(r"\w+", path) for path in self.by]
+        for number, (path, place) in enumerate(zip(self.by, self._places, strict=True)):
+            if place in self._places[:number]:
+                raise ValueError(f"by: {path} is named twice")
+            if not isinstance(_at(self._table, place), int | float):
+                raise ValueError(f"by: {path}: no number of the case as it is written; such as 'friction.coefficient'")
         self._threads = threads
 
     def at(self, numbers: Reals) -> Table:
         """Return the case with these numbers."""
+        given = np.asarray(numbers, dtype=float)
+        if given.shape != (len(self.by),):
+            raise ValueError(
+                f"numbers: expected {len(self.by)} of them, in the order of `by`; found shape {given.shape}"
+            )
         case = copy.deepcopy(self._table)
-        for path, number in zip(self.by, np.asarray(numbers, dtype=float), strict=True):
-            put(case, path.replace("[", ".").replace("]", ""), float(number))
+        for place, number in zip(self._places, given, strict=True):
+            put(case, ".".join(place), float(number))
         return case
 
     def values(self, numbers: Reals) -> Reals:
@@ -42,3 +55,13 @@ class Results:
         found = gradient(self.at(numbers), of=self.of, by=self.by, threads=self._threads)
         rows = [found[name] for name in self.of]
         return np.array([row["value"] for row in rows]), np.array([[row[path] for path in self.by] for row in rows])
+
+
+def _at(table: Any, place: list[str]) -> Any:
+    """What stands at a place of a case; None where there is nothing."""
+    for step in place:
+        try:
+            table = table[int(step)] if isinstance(table, list | tuple) else table[step]
+        except (LookupError, TypeError, ValueError):
+            return None
+    return table

@@ -1073,7 +1073,7 @@ class Wear(TypedDict):
     """
     debris: NotRequired[Debris]
     """
-    Debris that stays between the surfaces. Default: all that wears off is gone.
+    Debris that stays between the surfaces. Default: all that wears off is gone; what a history starts with stays as it is.
     """
     every: NotRequired[int]
     """

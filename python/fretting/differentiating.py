@@ -1,5 +1,6 @@
 """Exact sensitivities: what a result depends on, and how much."""
 
+import math
 import re
 from collections.abc import Iterable, Mapping
 from typing import Any
@@ -61,8 +62,8 @@ def vjp(
 ) -> dict[str, float]:
     """Differentiate a weighted sum of results by numbers of a case: pull weights of results back to the numbers.
 
-    One pass backwards through the history, however many results and numbers there are: the product of a vector and the
-    matrix of derivatives that a chain of derivatives asks for (reverse mode).
+    The product of a vector and the matrix of derivatives that a chain of derivatives asks for (reverse mode). By
+    several numbers it is one pass backwards through the history, however many results and numbers there are.
 
     Parameters
     ----------
@@ -85,7 +86,7 @@ def vjp(
     CaseError
         When the case is refused.
     ValueError
-        As for :func:`gradient`, and without any weight.
+        As for :func:`gradient`, and without any weight or with one that is not finite.
     RunError
         As for :func:`gradient`.
 
@@ -103,17 +104,13 @@ def vjp(
     >>> list(found)
     ['profile.sphere.radius']
     """
-    return dict(pulled_back(case, weights, by, threads)[1])
-
-
-def pulled_back(
-    case: _case.CaseLike, weights: Mapping[str, float], by: str | Iterable[str], threads: int | None
-) -> tuple[float, list[tuple[str, float]]]:
-    """Return the weighted sum of results and its derivatives."""
     pairs = [(name, real(f"weights[{name!r}]", weight)) for name, weight in mapping("weights", weights).items()]
     if not pairs:
         raise ValueError("weights: of no result; expected such as {'max_pressure': 1.0}")
-    return _core.pulled_back(_case.read(case), pairs, texts("by", by), threads)
+    for name, weight in pairs:
+        if not math.isfinite(weight):
+            raise ValueError(f"weights[{name!r}] = {weight}: must be finite")
+    return dict(_core.pulled_back(_case.read(case), pairs, texts("by", by), threads))
 
 
 def value_of(increments: Mapping[str, Any], cycles: Mapping[str, Any], name: str) -> float:

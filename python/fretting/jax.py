@@ -32,7 +32,7 @@ def results(
     -------
     callable
         From an array of the numbers, in the order of `by`, to an array of the results, in the order of `of`; both of
-        the precision of JAX, single without ``jax.config.update("jax_enable_x64", True)``.
+        the precision of JAX, single without ``jax.config.update("jax_enable_x64", True)``. Has first derivatives.
 
     Raises
     ------

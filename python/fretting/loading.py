@@ -51,6 +51,7 @@ def open_results(folder: str | os.PathLike[str]) -> History:
     history = History.__new__(History)
     history._take(stored, record["plan"])
     history._folder = path.resolve()
+    history._continues = record.get("start") is not None
     history.status, history.message = record["status"], record.get("message")
     history.case = _case(path)
     history.version = record["version"]

@@ -121,7 +121,9 @@ def run(
     table = _case.table_of(case)
     with _told(progress) as on_step:
         if folder is None:
-            return ended(*_core.run(question, threads, on_step, estimate_error), table, stacklevel=3)
+            history = ended(*_core.run(question, threads, on_step, estimate_error), table, stacklevel=3)
+            history._continues = start is not None
+            return history
         how = (resume, replace, estimate_error)
         return _ended_in(Path(folder), _core.run_into(question, Path(folder), how, threads, on_step), stacklevel=3)
 

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 import torch
+from torch.autograd.function import once_differentiable
 
 from fretting import _case
 from fretting._function import Results
@@ -19,6 +20,7 @@ class _Run(torch.autograd.Function):
         return torch.as_tensor(values).to(numbers)
 
     @staticmethod
+    @once_differentiable  # type: ignore[untyped-decorator]
     def backward(ctx: Any, *weights: Any) -> Any:
         (matrix,) = ctx.saved_tensors
         return weights[0] @ matrix, None
@@ -44,7 +46,7 @@ def results(
     -------
     callable
         From a tensor of the numbers, in the order of `by`, to a tensor of the results, in the order of `of`, of the
-        same precision and on the same device.
+        same precision (double or single) and on the same device. Has first derivatives.
 
     Raises
     ------
@@ -56,6 +58,8 @@ def results(
     host = Results(case, of, by, threads)
 
     def function(numbers: Any) -> Any:
+        if numbers.dtype not in (torch.float64, torch.float32):
+            raise TypeError(f"numbers: expected a tensor of float64 or float32, found {numbers.dtype}")
         if torch.is_grad_enabled() and numbers.requires_grad:
             return _Run.apply(numbers, host)
         return torch.as_tensor(host.values(numbers.detach().cpu().numpy())).to(numbers)

@@ -1,14 +1,17 @@
 """Exact sensitivities from Python and from the command, against closed forms and differences of runs."""
 
 import json
+import math
 import subprocess
 import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import fretting
+from fretting._function import Results
 
 CASE: dict[str, Any] = {
     "grid": {"cells": [32, 32], "size": [320e-6, 320e-6]},
@@ -105,6 +108,20 @@ def test_weights_of_results_are_pulled_back_to_the_numbers() -> None:
     assert fretting.run(CASE).vjp(weights, by=by) == pulled
     with pytest.raises(ValueError, match="of no result"):
         fretting.vjp(CASE, {})
+    with pytest.raises(ValueError, match="must be finite"):
+        fretting.vjp(CASE, {"max_pressure": math.nan})
+
+
+def test_a_function_of_numbers_says_which_numbers_it_does_not_know() -> None:
+    for by, words in (
+        ("friction", "no number of the case as it is written"),
+        ("lower.coatings[7].young", "no number of the case as it is written"),
+        (["profile.sphere.radius", "profile.sphere.radius"], "named twice"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            Results(CASE, "max_pressure", by, None)
+    with pytest.raises(ValueError, match="expected 1"):
+        Results(CASE, "max_pressure", "profile.sphere.radius", None).values(np.array([1.0, 2.0]))
 
 
 def test_a_history_that_started_from_another_is_not_pulled_back() -> None:

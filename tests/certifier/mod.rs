@@ -153,6 +153,15 @@ impl<'a> Certifier<'a> {
         let evolved = evolved.and_then(|map| CoulombFriction::map(map).ok());
         let evolved = evolved.map(|law| law.with_max_shear_of(&case.friction));
         let law = evolved.as_ref().or(law).unwrap_or(&case.friction);
+        // Where friction has changed at once nothing goes on from before.
+        let law_of = |stage: usize| {
+            let mut latest_first = case.stages[..=stage].iter().rev();
+            latest_first.find_map(|stage| stage.friction.as_ref()).unwrap_or(&case.friction)
+        };
+        if self.before.k == 1 && law_of(record.stage) != law_of(record.stage.saturating_sub(1)) {
+            let last = self.past.loads.len().saturating_sub(1);
+            self.past.loads.drain(..last);
+        }
         let displacements = self.influence.displacements(p, q);
         let ratio = self.past.ratio_to(&load).filter(|_| {
             case.integration == Integration::SecondOrder && record.work.end_point_increments == 0
@@ -186,21 +195,12 @@ impl<'a> Certifier<'a> {
         let past = &mut self.past;
         // An increment in which nothing changes leaves what is known of those before as it is.
         let pauses = past.loads.last() == Some(&load) && !past.is_cut;
-        // Unless friction has changed at once: nothing goes on from before that.
-        let law_of = |stage: usize| {
-            let mut latest_first = case.stages[..=stage].iter().rev();
-            latest_first.find_map(|stage| stage.friction.as_ref()).unwrap_or(&case.friction)
-        };
-        let slides_anew = before.k == 1 && law_of(record.stage) != law_of(record.stage.saturating_sub(1));
         past.is_cut = before.worn != fields.worn_depth;
         if past.is_cut {
             past.loads.push(load);
             *past = Past { loads: std::mem::take(&mut past.loads), is_cut: true, ..Past::default() };
         } else if pauses {
             past.gap[0] = Some(gap.clone());
-            if slides_anew {
-                past.loads = vec![load];
-            }
         } else {
             past.loads.push(load);
             let (drift_before, gap_before) = (past.drift[0].take(), past.gap[0].take());

@@ -34,7 +34,7 @@ pub fn gradient(
     Ok(found.gradients.into_iter().map(of).collect())
 }
 
-/// A sum of results, each times its weight, and its derivatives by numbers of a case; by all numbers where none is named.
+/// Derivatives of a sum of results, each times its weight, by numbers of a case; by all numbers where none is named.
 #[pyfunction]
 pub fn pulled_back(
     py: Python<'_>,
@@ -42,12 +42,11 @@ pub fn pulled_back(
     weights: Vec<(String, f64)>,
     by: Vec<String>,
     threads: Threads,
-) -> PyResult<(f64, Vec<(String, f64)>)> {
+) -> PyResult<Vec<(String, f64)>> {
     let found = found(py, case, threads, |plan, guest| sensitivity::pulled_back(plan, &weights, &by, guest))?;
     let paths = found.parameters.iter().map(|entry| entry.path().to_owned());
-    let value = found.gradients.iter().map(|gradient| gradient.value).sum();
     let derivatives = found.gradients.iter().flat_map(|gradient| gradient.by.iter().copied());
-    Ok((value, paths.zip(derivatives).collect()))
+    Ok(paths.zip(derivatives).collect())
 }
 
 /// What derivatives a case has, found beside Python.

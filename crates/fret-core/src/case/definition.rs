@@ -203,6 +203,17 @@ impl Case {
         std::iter::once(&self.friction).chain(changes).all(CoulombFriction::is_frictionless)
     }
 
+    /// The friction law of a stage, unless friction evolves.
+    pub fn friction_of(&self, stage: usize) -> &CoulombFriction {
+        let mut latest_first = self.stages.iter().take(stage + 1).rev();
+        latest_first.find_map(|stage| stage.friction.as_ref()).unwrap_or(&self.friction)
+    }
+
+    /// Whether friction is another in a stage than in the one before.
+    pub fn friction_changes_at(&self, stage: usize) -> bool {
+        stage > 0 && self.friction_of(stage) != self.friction_of(stage - 1)
+    }
+
     /// Refuses the case for its grid's side lengths.
     pub(crate) fn refuse_size(&self, message: String, help: &str) -> CaseError {
         let help = (!help.is_empty()).then(|| help.to_owned());

@@ -136,7 +136,7 @@ pub(super) struct WearFile {
     /// changed by this fraction. Needs `wear_coefficient` of the layers. Default: the response stays that of the unworn bodies.
     #[range(THINNING)]
     pub thinning_tolerance: Option<At<f64>>,
-    /// Debris that stays between the surfaces. Default: all that wears off is gone.
+    /// Debris that stays between the surfaces. Default: all that wears off is gone; what a history starts with stays as it is.
     pub debris: Option<At<DebrisFile>>,
     /// Another wear coefficient far from the rim of the contact. Default: the same everywhere.
     pub rim: Option<At<RimFile>>,

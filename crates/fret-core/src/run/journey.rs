@@ -23,7 +23,7 @@ use super::wear::{debris, worn};
 use crate::case::{Case, Stage};
 use crate::history::{CycleRecord, History, KeptFields, StepRecord, WornThrough, WornTo};
 use crate::kernel::uniform_response;
-use crate::model::{ContactState, CoulombFriction, LoadStep, MirroredState, SolvedState};
+use crate::model::{ContactState, LoadStep, MirroredState, SolvedState};
 use crate::plan::{Coupling, Plan};
 use crate::solver::Resultants;
 
@@ -45,13 +45,6 @@ pub(super) struct Journey<'a> {
 impl<'a> Journey<'a> {
     fn case(&self) -> &'a Case {
         &self.plan.case
-    }
-
-    /// The friction law that the case has for a stage, unless friction evolves.
-    fn friction_of(&self, stage: usize) -> &'a CoulombFriction {
-        let case = self.case();
-        let mut latest_first = case.stages.iter().take(stage + 1).rev();
-        latest_first.find_map(|stage| stage.friction.as_ref()).unwrap_or(&case.friction)
     }
 
     /// How the next increment is divided; it is one step where its end does not depend on the way there.
@@ -97,12 +90,12 @@ impl<'a> Journey<'a> {
             self.surfaces.begin_stage();
         }
         let friction = match &self.surfaces.evolving {
-            None => self.plan.symmetry.part_of_friction(self.friction_of(number)),
+            None => self.plan.symmetry.part_of_friction(self.case().friction_of(number)),
             Some(evolving) => Cow::Owned(evolving.friction().clone()),
         };
         self.solver.set_friction(friction);
-        if begins && self.friction_of(number) != self.friction_of(number.saturating_sub(1)) {
-            self.solver.solver.friction_changes_at_once();
+        if begins && self.case().friction_changes_at(number) {
+            self.solver.solver.forget_increments_before();
         }
         self.surfaces.take_friction(self.solver.solver.friction());
         let place = &self.place;

@@ -111,7 +111,9 @@ fn derivatives(
     let names = || sums.iter().flat_map(|(_, parts)| parts).map(|(name, _)| name);
     let objectives = names().map(|name| Objective::new(name)).collect::<Result<Vec<_>, _>>()?;
     check_request(plan, &parameters, &objectives)?;
-    let bytes = plan.grid.len().saturating_mul(STATE).saturating_mul(plan.case.increments());
+    let bytes = (plan.grid.len() / plan.symmetry.copies())
+        .saturating_mul(STATE)
+        .saturating_mul(plan.case.increments());
     memory::check(bytes).map_err(|error| RunError::OutOfMemory { increment: 0, error })?;
     let mut run = Snapshots { steps: Vec::new(), cycles: Vec::new(), observer };
     Simulation::new(plan).run(&mut run)?;

@@ -71,6 +71,16 @@ pub(super) fn check_request(
                      symmetric: give one of the bodies a slightly different constant",
                 );
             }
+            if let Some(odd) = objectives.iter().find(|objective| ODD.contains(&objective.column())) {
+                return refused(
+                    parameter,
+                    &format!(
+                        "pressure and shear of these bodies do not act on each other, but with another value they would, and turn: {} has no \
+                         derivative here: give one of the bodies a slightly different constant",
+                        odd.column()
+                    ),
+                );
+            }
         }
     }
     let of_friction = |objective: &&Objective| objective.column() == "friction_coefficient";
@@ -85,7 +95,11 @@ pub(super) fn check_request(
     Ok(())
 }
 
-/// Whether the gap, without a tilt or a map, is the same after half a turn: what pressure and shear then do to each other cancels to first order.
+/// Results that change their sign in a mirror: of bodies whose pressure and shear begin to act on each other they do not stay to first order.
+const ODD: [&str; 6] = ["twist", "twist_moment", "tilt_x", "tilt_y", "tilt_moment_x", "tilt_moment_y"];
+
+/// Whether the gap, without a tilt, a twist or a map, is the same after half a turn: what pressure and shear then do to each other cancels to
+/// first order.
 fn is_point_symmetric(plan: &Plan) -> bool {
     let case = &plan.case;
     let gap = case.profile.gap(&plan.grid);
@@ -93,7 +107,8 @@ fn is_point_symmetric(plan: &Plan) -> bool {
     let turned = gap.slice(s![..;-1, ..;-1]);
     let is_even =
         gap.iter().zip(turned).all(|(one, other)| one == other || (one - other).abs() <= 1e-12 * largest);
-    is_even && !case.friction.is_map() && !case.stages.iter().any(Stage::tilts)
+    let is_flat_on = |stage: &Stage| !stage.tilts() && stage.twist.is_none();
+    is_even && !case.friction.is_map() && case.stages.iter().all(is_flat_on)
 }
 
 /// Whether the history of a plan, of which the cells in contact are given increment by increment, has derivatives.

@@ -82,7 +82,8 @@ fn pace(scene: &Scene<'_>, load: &Load, before: &Solved, end_point: bool) -> Opt
     const BOTH: usize = 2 * FREEDOMS;
     let of_second_order = scene.is_frictional() && scene.plan.case.integration == Integration::SecondOrder;
     let (first, last) = (before.from.as_ref()?, load.from.as_ref()?);
-    if !of_second_order || end_point {
+    let friction_changes = load.begins && scene.plan.case.friction_changes_at(load.stage);
+    if !of_second_order || end_point || friction_changes {
         return None;
     }
     let (older, newer) = (first.change_to(last)?, last.change_to(&load.step)?);

@@ -123,7 +123,5 @@ impl Solved {
 
 /// The law of friction in force at a stage, on the part in front of the mirrors.
 pub(super) fn law_of(plan: &Plan, stage: usize) -> Cow<'_, CoulombFriction> {
-    let mut latest_first = plan.case.stages.iter().take(stage + 1).rev();
-    let law = latest_first.find_map(|stage| stage.friction.as_ref()).unwrap_or(&plan.case.friction);
-    plan.symmetry.part_of_friction(law)
+    plan.symmetry.part_of_friction(plan.case.friction_of(stage))
 }

@@ -40,9 +40,6 @@ impl ContactSolver<'_> {
             self.check_friction_carries(load, normal, sliding_fraction(self.settings.tolerance))?;
         }
         self.take_last_load_as(load, state);
-        if std::mem::take(&mut self.friction_changed) && self.pauses(load) {
-            self.memory.before = None;
-        }
         let mut start = self.pressure_from_coarse_grids(state, load, callback)?;
         let mut region = match &start {
             Some(pressure) => self.region_around(pressure, state),

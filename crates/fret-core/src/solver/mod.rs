@@ -84,8 +84,6 @@ pub struct ContactSolver<'a> {
     grid: SurfaceGrid,
     undeformed: Array2<f64>,
     friction: Cow<'a, CoulombFriction>,
-    /// Friction is another than that under which the last state slid.
-    friction_changed: bool,
     coupling: Coupling,
     response: HeldResponse<'a>,
     settings: SolverSettings,
@@ -142,7 +140,6 @@ impl<'a> ContactSolver<'a> {
             grid,
             undeformed,
             friction: Cow::Borrowed(friction),
-            friction_changed: false,
             coupling,
             response: HeldResponse::Kept(response),
             settings,
@@ -248,10 +245,9 @@ impl<'a> ContactSolver<'a> {
         self.friction = friction;
     }
 
-    /// The friction law changed at once, between the last increment and the next: where no load changes surfaces slide all the same, and later
-    /// increments do not go on from those before.
-    pub fn friction_changes_at_once(&mut self) {
-        self.friction_changed = true;
+    /// Friction has changed at once, between the last increment and the next, which does not go on from those before.
+    pub fn forget_increments_before(&mut self) {
+        self.memory.before = None;
     }
 
     /// Goes on with another undeformed gap [length], shape of the grid: the displacements known so far hold no longer. Tractions, loads
