@@ -1,4 +1,5 @@
-//! What a contact carries that slides, where its approach is prescribed: the normal force falls while it is dragged along.
+//! What a contact carries that slides, where its pressure decides it: at a prescribed approach the normal force falls while it is dragged along; where
+//! friction differs from place to place, pressure goes over from one place to another.
 
 use super::contact_problem::ContactProblem;
 use super::increment_problem::IncrementProblem;
@@ -16,8 +17,8 @@ const SLIDING: f64 = 1e-6;
 /// 0.5 contact radii that keep their volume (friction 0.8 and 1.5).
 const LIMIT: f64 = 1.01;
 
-/// Refuses tangential forces above those under which the contact slides as a whole at a prescribed approach, from `start`. Where that is not
-/// found either, nothing is known.
+/// Refuses tangential forces above those under which the contact slides as a whole, from `start`. Where that is not found either, nothing is
+/// known.
 ///
 /// # Errors
 /// When the forces are above it, or the iteration is stopped.
@@ -33,7 +34,8 @@ pub fn check_sliding(
     let held = loads.held();
     let [x, y] = [0, 1].map(|axis| if held[axis] { loads.resultant[axis] } else { 0.0 });
     let asked = x.hypot(y);
-    if problem.normal.total.is_some() || held[2] || !(asked > 0.0) {
+    let is_known = problem.normal.total.is_some() && problem.friction.is_uniform();
+    if is_known || held[2] || !(asked > 0.0) {
         return Ok(());
     }
     // Slip by the size of the region: what sheared the contact before is nothing beside it.

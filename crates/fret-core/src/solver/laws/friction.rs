@@ -53,6 +53,11 @@ impl FrictionLaw {
         Self { uniform: None, coefficient: values(friction.coefficient()), max_shear }
     }
 
+    /// Whether shear is bounded by one coefficient everywhere, and by nothing else: then a normal force tells what is carried.
+    pub fn is_uniform(&self) -> bool {
+        self.uniform.is_some()
+    }
+
     /// Whether the interface has a shear strength.
     pub fn has_strength(&self) -> bool {
         !self.max_shear.is_empty()

@@ -9,10 +9,30 @@ use super::super::settings::SolveError;
 use super::problem::{Ending, NormalIteration};
 use crate::fields::{CellRule, CellSize, Reals, add_scaled, dot, each_cell, largest_of, sum};
 
-/// The contact changes when the residual on it is this much smaller than its violations.
-const SMALL_BESIDE: f64 = 0.3;
-/// Changes without halving the violations before it gives up.
-const MAX_STALLED: usize = 6;
+/// When the contact changes, and how long it may change in vain.
+#[derive(Debug, Clone, Copy)]
+pub struct Care {
+    /// The contact changes when the residual on it is this much smaller than its violations.
+    small_beside: f64,
+    /// Changes without halving the violations before it gives up.
+    max_stalled: usize,
+}
+
+impl Default for Care {
+    fn default() -> Self {
+        Self { small_beside: 0.3, max_stalled: 6 }
+    }
+}
+
+impl Care {
+    /// That of the next attempt: a contact that wanders where its pressure is half found settles where it is found.
+    pub fn more(self) -> Self {
+        Self {
+            small_beside: (0.1 * self.small_beside).max(1e-3),
+            max_stalled: (2 * self.max_stalled).min(48),
+        }
+    }
+}
 
 /// What is wrong on a fixed contact.
 struct Violations {
@@ -30,11 +50,11 @@ struct Violations {
     tense: f64,
 }
 
-/// Iterates until solved, or until the violations stop falling.
+/// Iterates until solved, or until the violations stop falling; with what `care` it takes.
 ///
 /// # Errors
 /// When the caller stopped the iteration, or it has gone on for too long.
-pub fn iterate(problem: &mut NormalIteration<'_>) -> Result<Ending, SolveError> {
+pub fn iterate(problem: &mut NormalIteration<'_>, care: Care) -> Result<Ending, SolveError> {
     let task = problem.task;
     for (active, p) in problem.active.iter_mut().zip(&*problem.pressure) {
         *active = f64::from(u8::from(*p > 0.0));
@@ -58,7 +78,7 @@ pub fn iterate(problem: &mut NormalIteration<'_>) -> Result<Ending, SolveError> 
                 let (approach, turned) = (here.approach, problem.turned);
                 return Ok(Ending::Solved(NormalResidual { approach, turned, residual }));
             }
-            let settled = here.inner_square < SMALL_BESIDE * SMALL_BESIDE * here.outer_square;
+            let settled = here.inner_square < care.small_beside.powi(2) * here.outer_square;
             if steps > 0 && settled || here.inner < problem.tolerance {
                 break;
             }
@@ -81,7 +101,7 @@ pub fn iterate(problem: &mut NormalIteration<'_>) -> Result<Ending, SolveError> 
         if here.outer_square < 0.25 * best {
             (best, changes) = (here.outer_square, 0);
         }
-        if changes > MAX_STALLED {
+        if changes > care.max_stalled {
             return Ok(give_up(problem));
         }
         let before = problem.tilt.is_some().then(|| problem.pressure.to_vec());

@@ -11,6 +11,7 @@ use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use crate::fields::lower;
 
+use active_set::Care;
 pub use problem::NormalEquations;
 use problem::{Ending, NormalIteration};
 
@@ -31,7 +32,8 @@ const MAX_STALLED: usize = 20;
 /// Solves the normal equations from a pressure without tension and with the force prescribed. Both fields end at the solution: pressure [pressure] and its normal displacement
 /// [length].
 ///
-/// Projected conjugate gradients come first, the active set where the response is stiff; each takes over when the other stalls.
+/// Projected conjugate gradients come first, the active set where the response is stiff; each takes over when the other stalls, with more patience
+/// and more care each time.
 ///
 /// # Errors
 /// When the iteration does not converge or is stopped.
@@ -54,9 +56,10 @@ pub fn solve_normal(
     let mut by_active_set = operators.preconditioner.is_stiff();
     let mut problem = NormalIteration::new(task, fields, operators, settings.tolerance, callback);
     let mut max_stalled = MAX_STALLED;
+    let mut care = Care::default();
     loop {
         let ending = if by_active_set {
-            active_set::iterate(&mut problem)?
+            active_set::iterate(&mut problem, care)?
         } else {
             projected_cg::iterate(&mut problem, max_stalled)?
         };
@@ -69,6 +72,7 @@ pub fn solve_normal(
         }
         if by_active_set {
             max_stalled = max_stalled.saturating_mul(2);
+            care = care.more();
         }
         by_active_set = !by_active_set;
     }
