@@ -8,7 +8,7 @@ use ndarray::Array2;
 use super::Family;
 use super::body::Body;
 use super::loads::MOST_PULL_ON_MAP;
-use crate::certifier::Ended;
+use crate::certifier::{Ended, run_certified};
 
 /// How a case ended.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,9 +84,15 @@ pub(super) fn judged(
             Outcome::Refused(Refusal::WearTooFast)
         }
         Some(RunError::AboveSliding { asked, .. }) => match carried(ended) {
-            Some(carried) if *asked < 0.999 * carried => {
-                Outcome::Wrong(format!("asked {asked:e}, but friction carries {carried:e}"))
-            }
+            Some(carried) if *asked < 0.999 * carried => match carried_in_sliding(text, maps, ended) {
+                // To what the tolerance of a solution leaves of a force.
+                Some(in_sliding) if *asked > (1.0 - 1e-5) * in_sliding => {
+                    Outcome::Refused(Refusal::AboveSliding)
+                }
+                found => Outcome::Wrong(format!(
+                    "asked {asked:e}, but friction carries {carried:e}, when it slides {found:?}"
+                )),
+            },
             _ => Outcome::Refused(Refusal::AboveSliding),
         },
         Some(RunError::AboveFullSlip { .. }) => match moments(ended) {
@@ -145,6 +151,38 @@ pub(super) fn carried(ended: &Ended) -> Option<f64> {
     let pressure = last.fields.pressure.as_ref().filter(|_| stays)?;
     let sum: f64 = pressure.indexed_iter().map(|((i, j), p)| p * case.friction.at(i, j)).sum();
     Some(sum * ended.plan.grid.cell_area())
+}
+
+/// What friction carries along the force of the increment that failed when the contact slides far along it instead, certified: with its own
+/// pressure, which friction that differs from place to place and shear that moves the surfaces apart make another one.
+fn carried_in_sliding(text: &str, maps: &[Array2<f64>], ended: &Ended) -> Option<f64> {
+    let case = &ended.plan.case;
+    let last = &ended.run.last()?.record;
+    let number = ended.error.as_ref()?.increment();
+    let (mut first, mut failed) = (0, 0);
+    while number >= first + case.stages[failed].increments_in_all() {
+        first += case.stages[failed].increments_in_all();
+        failed += 1;
+    }
+    let stage = &case.stages[failed];
+    let start = &ended.run.iter().rev().find(|kept| kept.record.increment < first)?.record;
+    let force = [0, 1].map(|axis| match &stage.tangential[axis] {
+        Some(control @ StageControl::Force(_)) => {
+            stage.value(control, start.tangential_force[axis], number - first + 1, stage.times().as_ref())
+        }
+        _ => last.tangential_force[axis],
+    });
+    let asked = force[0].hypot(force[1]);
+    let far = ended.plan.grid.centre(0, ended.plan.grid.cells()[0] - 1).abs();
+    let [x, y] = force.map(|part| part / asked * far);
+    let stages: Vec<&str> = text.split("[[load]]").take(failed + 1).collect();
+    let slid = format!("{}[[load]]\nshift = [{x:e}, {y:e}]\nincrements = 1\n", stages.join("[[load]]"));
+    let ended = run_certified(&slid, maps).ok()?;
+    if ended.error.is_some() || ended.wrong().is_some() {
+        return None;
+    }
+    let [x, y] = ended.run.last()?.record.tangential_force;
+    Some((x * force[0] + y * force[1]) / asked)
 }
 
 /// The moment asked for in the increment that failed, and that of full slip under its force, `sum mu p r dA`, about the place where friction

@@ -9,7 +9,7 @@ use super::newton;
 use super::normal::solve_normal;
 use super::operators::{Method, RegionOperators};
 use super::settings::{IterationCallback, SolveError, SolverSettings};
-use super::sliding_limit::check_sliding;
+use super::sliding_limit::sliding_limit;
 use super::staggered;
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
@@ -75,13 +75,17 @@ pub fn solve(
         if found.is_none() && !increment.path.turns() {
             let frictionless = without_friction(increment, &start, operators, settings, callback)?;
             increment.check_limit(&frictionless, COUPLED_LIMIT)?;
-            check_sliding(increment, &problem, &frictionless, operators, settings, callback)?;
+            let slides = sliding_limit(increment, &problem, &frictionless, operators, settings, callback)?;
+            slides.check(increment)?;
             found = augmented_newton::solve(&problem, &frictionless, (p, u), operators, settings, callback)?;
             if found.is_none() {
                 p.clone_from(&frictionless);
                 newton::make_shear_feasible(&problem, p, operators);
                 operators.compliance.full(p.parts(), u.parts_mut());
                 found = swept(staggered::solve(&problem, p, u, operators, settings, callback))?;
+            }
+            if found.is_none() {
+                slides.check_unsolved(increment)?;
             }
         }
         solution = found.map_or(solution, Ok);

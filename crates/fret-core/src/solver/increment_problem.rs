@@ -6,7 +6,7 @@ use super::contact_problem::{ContactProblem, Pressure, Solution};
 use super::contact_set::ContactSet;
 use super::laws::complementarity::NormalResidual;
 use super::laws::friction::FrictionLaw;
-use super::laws::limit::carried_fraction;
+use super::laws::limit::{Sliding, sliding};
 use super::laws::rigid_motions::CellPositions;
 use super::laws::slip_path::SlipPath;
 use super::laws::tilt_motions::TiltMotions;
@@ -209,21 +209,32 @@ impl<'a> IncrementProblem<'a> {
 
     /// Whether friction carries more than a fraction `limit` of what is prescribed, at the pressure of `tractions`.
     pub fn check_limit(&self, tractions: &Tractions, limit: f64) -> Result<(), SolveError> {
+        let Sliding { fraction, .. } = self.sliding(tractions);
+        if fraction > limit { Ok(()) } else { Err(self.above_limit(fraction)) }
+    }
+
+    /// How the contact slides at the pressure of `tractions`.
+    pub fn sliding(&self, tractions: &Tractions) -> Sliding {
         let contact = ContactSet::loaded(&tractions.pressure);
         let bound = self.friction.packed(&contact).bound(&contact.packed(&tractions.pressure));
         let loads = TangentialLoads { by_force: self.tangential.held(), ..self.tangential };
         let motions = self.positions.motions_of(&contact, loads);
-        let prescribed = loads.only_by_force(loads.resultant);
-        let fraction = carried_fraction(&bound.bound, &motions, prescribed);
-        if fraction > limit {
-            return Ok(());
-        }
-        let [x, y, moment] = prescribed;
+        sliding(&bound.bound, &motions, self.prescribed())
+    }
+
+    /// That friction carries no more than a fraction of what is prescribed.
+    pub fn above_limit(&self, fraction: f64) -> SolveError {
+        let [x, y, moment] = self.prescribed();
         if moment != 0.0 {
-            return Err(SolveError::AboveFullSlip { fraction });
+            return SolveError::AboveFullSlip { fraction };
         }
         let asked = x.hypot(y) * self.grid.cell_area();
-        let has_strength = self.friction.has_strength();
-        Err(SolveError::AboveSliding { asked, bound: fraction * asked, has_strength })
+        SolveError::AboveSliding { asked, bound: fraction * asked, has_strength: self.friction.has_strength() }
+    }
+
+    /// Sums of shear times mode that are prescribed as they are; zero for the others [pressure].
+    pub fn prescribed(&self) -> [f64; 3] {
+        let loads = TangentialLoads { by_force: self.tangential.held(), ..self.tangential };
+        loads.only_by_force(loads.resultant)
     }
 }

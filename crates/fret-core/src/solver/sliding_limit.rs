@@ -1,7 +1,9 @@
 //! What a contact carries that slides, where its pressure decides it: at a prescribed approach the normal force falls while it is dragged along; where
 //! friction differs from place to place, pressure goes over from one place to another.
 
+use super::augmented_newton;
 use super::contact_problem::ContactProblem;
+use super::contact_set::ContactSet;
 use super::increment_problem::IncrementProblem;
 use super::newton;
 use super::operators::RegionOperators;
@@ -9,7 +11,6 @@ use super::prescribed::TangentialLoads;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
-use crate::fields::sum;
 
 /// Residual to which sliding is solved.
 const SLIDING: f64 = 1e-6;
@@ -17,47 +18,75 @@ const SLIDING: f64 = 1e-6;
 /// 0.5 contact radii that keep their volume (friction 0.8 and 1.5).
 const LIMIT: f64 = 1.01;
 
-/// Refuses tangential forces above those under which the contact slides as a whole, from `start`. Where that is not found either, nothing is
-/// known.
+/// What a contact that slides carries of the forces and moments that are prescribed.
+pub struct SlidingLimit {
+    /// Their fraction [-]; infinite where it is known before, or not found.
+    fraction: f64,
+}
+
+impl SlidingLimit {
+    /// Refuses what is more than is carried on the way to sliding.
+    ///
+    /// # Errors
+    /// When it is.
+    pub fn check(&self, increment: &IncrementProblem<'_>) -> Result<(), SolveError> {
+        if LIMIT * self.fraction < 1.0 { Err(increment.above_limit(self.fraction)) } else { Ok(()) }
+    }
+
+    /// Refuses what is more than is carried in sliding, where no way has led to a solution.
+    ///
+    /// # Errors
+    /// When it is.
+    pub fn check_unsolved(&self, increment: &IncrementProblem<'_>) -> Result<(), SolveError> {
+        if self.fraction < 1.0 { Err(increment.above_limit(self.fraction)) } else { Ok(()) }
+    }
+}
+
+/// What a contact carries that slides as a whole, from `start`: along the force, or by the motion that its pressure carries least of.
 ///
 /// # Errors
-/// When the forces are above it, or the iteration is stopped.
-pub fn check_sliding(
+/// When the iteration is stopped.
+pub fn sliding_limit(
     increment: &IncrementProblem<'_>,
     problem: &ContactProblem<'_>,
     start: &Tractions,
     operators: &mut RegionOperators,
     settings: &SolverSettings,
     callback: IterationCallback<'_>,
-) -> Result<(), SolveError> {
-    let loads = problem.tangential;
-    let held = loads.held();
-    let [x, y] = [0, 1].map(|axis| if held[axis] { loads.resultant[axis] } else { 0.0 });
-    let asked = x.hypot(y);
-    let is_known = problem.normal.total.is_some() && problem.friction.is_uniform();
-    if is_known || held[2] || !(asked > 0.0) {
-        return Ok(());
+) -> Result<SlidingLimit, SolveError> {
+    let unknown = SlidingLimit { fraction: f64::INFINITY };
+    let prescribed = increment.prescribed();
+    let is_known = problem.normal.total.is_some() && problem.friction.is_uniform() && prescribed[2] == 0.0;
+    if is_known || prescribed == [0.0; 3] {
+        return Ok(unknown);
     }
+    let all = problem.motions_of(&ContactSet::of(increment.region.len(), |_| true));
+    let motion = increment.sliding(start).motion;
+    let farthest = (0..increment.region.len())
+        .map(|cell| all.at(motion, cell))
+        .fold(0.0_f64, |most, [x, y]| most.max(x.hypot(y)));
     // Slip by the size of the region: what sheared the contact before is nothing beside it.
-    let far = problem.positions.length / asked;
-    let motion = [x * far, y * far, 0.0];
+    let motion = motion.map(|part| part * problem.positions.length / farthest);
     let sliding =
         ContactProblem { tangential: TangentialLoads { motion, ..TangentialLoads::default() }, ..*problem };
     let (mut tractions, mut displacements) = (start.clone(), Displacements::zeros(increment.region.len()));
     newton::make_shear_feasible(&sliding, &mut tractions, operators);
     operators.compliance.full(tractions.parts(), displacements.parts_mut());
     let settings = SolverSettings { tolerance: SLIDING, ..*settings };
-    let (ends, moved) = (&mut tractions, &mut displacements);
-    match newton::solve(&sliding, ends, moved, operators, &settings, callback) {
-        Err(SolveError::Stopped) => return Err(SolveError::Stopped),
-        Err(_) => return Ok(()),
-        Ok(_) => {}
+    let (from, ends) = (tractions.clone(), (&mut tractions, &mut displacements));
+    let found = match newton::solve(&sliding, &mut *ends.0, &mut *ends.1, operators, &settings, callback) {
+        Err(SolveError::NotConverged { .. }) => {
+            augmented_newton::solve(&sliding, &from, ends, operators, &settings, callback)?.is_some()
+        }
+        other => other.map(|_| true)?,
+    };
+    if !found {
+        return Ok(unknown);
     }
-    let carried = (x * sum(&tractions.shear.x) + y * sum(&tractions.shear.y)) / asked;
-    if asked <= LIMIT * carried {
-        return Ok(());
-    }
-    let area = increment.grid.cell_area();
-    let has_strength = increment.friction.has_strength();
-    Err(SolveError::AboveSliding { asked: asked * area, bound: carried * area, has_strength })
+    let work = |cell: usize| {
+        let ([x, y], [qx, qy]) = (all.at(motion, cell), tractions.shear.at(cell));
+        x * qx + y * qy
+    };
+    let asked: f64 = (0..3).map(|mode| prescribed[mode] * motion[mode]).sum();
+    Ok(SlidingLimit { fraction: (0..increment.region.len()).map(work).sum::<f64>() / asked })
 }

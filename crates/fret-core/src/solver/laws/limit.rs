@@ -15,14 +15,22 @@ pub fn sliding_fraction(tolerance: f64) -> f64 {
 /// Iterations of the search for the motion; each one gives a bound, later ones better ones.
 const MOST_ITERATIONS: usize = 60;
 
-/// The fraction of the prescribed `resultant` (sums of shear times mode [pressure]) that friction with these bounds carries, from
-/// above; infinite where nothing is prescribed. Packed over a contact.
+/// How a contact slides under prescribed forces and moments.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sliding {
+    /// The fraction of them that friction carries, from above; infinite where nothing is prescribed [-].
+    pub fraction: f64,
+    /// The motion that tells so, up to a factor.
+    pub motion: [f64; 3],
+}
+
+/// How a contact slides under the prescribed `resultant` (sums of shear times mode [pressure]) with these bounds. Packed over a contact.
 ///
 /// The least of `sum b |m| / (m . R)` over the motions: iteratively reweighted least squares (Weiszfeld).
-pub fn carried_fraction(bound: &[f64], motions: &RigidMotions, resultant: [f64; 3]) -> f64 {
+pub fn sliding(bound: &[f64], motions: &RigidMotions, resultant: [f64; 3]) -> Sliding {
     let resultant = motions.loads.only_by_force(resultant);
     let mut motion = resultant;
-    let mut least = f64::INFINITY;
+    let mut least = Sliding { fraction: f64::INFINITY, motion };
     for _ in 0..MOST_ITERATIONS {
         let work: f64 = (0..3).map(|mode| motion[mode] * resultant[mode]).sum();
         if !(work > 0.0) {
@@ -44,7 +52,9 @@ pub fn carried_fraction(bound: &[f64], motions: &RigidMotions, resultant: [f64; 
                 *entry += weight * term;
             }
         }
-        least = least.min(dissipated / work);
+        if dissipated / work < least.fraction {
+            least = Sliding { fraction: dissipated / work, motion };
+        }
         if !motions.loads.by_force[2] {
             break; // without rotation all cells slide along the force
         }
@@ -74,9 +84,9 @@ mod tests {
     fn a_force_is_carried_up_to_the_sum_of_the_bounds() {
         let (bound, motions, _) = square([true, true, false]);
         let all = 2.0 * bound.len() as f64;
-        let fraction = carried_fraction(&bound, &motions, [0.6 * 2.0 * all, 0.8 * 2.0 * all, 0.0]);
+        let fraction = sliding(&bound, &motions, [0.6 * 2.0 * all, 0.8 * 2.0 * all, 0.0]).fraction;
         assert!((fraction - 0.5).abs() < 1e-12, "{fraction}");
-        assert_eq!(carried_fraction(&bound, &motions, [0.0; 3]), f64::INFINITY);
+        assert_eq!(sliding(&bound, &motions, [0.0; 3]).fraction, f64::INFINITY);
     }
 
     /// The moment that turns a disc is the sum of bounds times distances; a force beside it lessens what is left.
@@ -84,9 +94,9 @@ mod tests {
     fn a_moment_is_carried_up_to_the_sum_of_bounds_times_distances() {
         let (bound, motions, length) = square([true, true, true]);
         let arms: f64 = (0..bound.len()).map(|cell| motions.rotation.at(cell)).map(|[x, y]| x.hypot(y)).sum();
-        let fraction = carried_fraction(&bound, &motions, [0.0, 0.0, 4.0 * arms]);
+        let fraction = sliding(&bound, &motions, [0.0, 0.0, 4.0 * arms]).fraction;
         assert!((fraction - 0.5).abs() < 1e-12, "{fraction} {length}");
-        let with_force = carried_fraction(&bound, &motions, [bound.len() as f64, 0.0, 4.0 * arms]);
+        let with_force = sliding(&bound, &motions, [bound.len() as f64, 0.0, 4.0 * arms]).fraction;
         assert!(with_force < 0.5 && with_force > 0.3, "{with_force}");
     }
 
@@ -109,7 +119,7 @@ mod tests {
                     resultant[2] + share * (x * a + y * b),
                 ];
             }
-            let fraction = carried_fraction(&bound, &motions, resultant.map(|part| 2.5 * part));
+            let fraction = sliding(&bound, &motions, resultant.map(|part| 2.5 * part)).fraction;
             // A bound from above; sixty iterations of a method of first order leave less than this.
             assert!(fraction > 0.4 - 1e-12 && fraction < 0.4 + 1e-7, "{motion:?}: {:e}", fraction - 0.4);
         }
