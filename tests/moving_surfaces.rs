@@ -186,6 +186,37 @@ fn a_flat_wears_to_the_envelope_of_the_cylinder() {
     }
 }
 
+/// The same under a ball: `d - max(0, |x| - s)^2/(2 R) - y^2/(2 R)`, of the volume `pi R d^2 + 8/3 s d sqrt(2 R d)`.
+#[test]
+#[ignore = "long: thousands of cycles until nothing presses at the ends of the stroke"]
+fn a_flat_wears_to_the_envelope_of_the_ball() {
+    let (depth, stroke) = (3.2e-3, 0.15);
+    let profile = format!("[profile.sphere]\nradius = {RADIUS}");
+    let history = cut("cells = [48, 36]\nsize = [2.4, 1.8]", &profile, stroke, depth, 20_000);
+    assert_nothing_is_lost(&history, [0.03, 0.0]);
+    let lower = &history.fields.last().unwrap().own_worn_depth.as_ref().unwrap()[0];
+    let grid = &history.grid;
+    let volume = lower.sum() * grid.cell_area();
+    let half_width = (2.0 * RADIUS * depth).sqrt();
+    let exact = PI * RADIUS * depth * depth + 8.0 / 3.0 * stroke * depth * half_width;
+    let envelope = |x: f64, y: f64| {
+        let beyond = (x.abs() - stroke).max(0.0);
+        (depth - (beyond * beyond + y * y) / (2.0 * RADIUS)).max(0.0)
+    };
+    let off = lower
+        .indexed_iter()
+        .map(|((i, j), worn)| (worn - envelope(grid.centre(0, i), grid.centre(1, j))).abs())
+        .fold(0.0, f64::max);
+    println!(
+        "flat worn by a ball, +-{stroke}: {} computed cycles, shape off by {:.2} % of the depth, volume {:+.2} %",
+        history.cycles.len(),
+        100.0 * off / depth,
+        100.0 * (volume / exact - 1.0)
+    );
+    assert!(off < 0.01 * depth, "{off:e}");
+    assert!((volume / exact - 1.0).abs() < 0.01, "{}", volume / exact);
+}
+
 /// Only the cylinder wears: a flat that stays flat leaves `d - x^2/(2 R)`, of the area `4/3 d sqrt(2 R d)`, whatever the stroke.
 #[test]
 fn a_cylinder_wears_flat_whatever_the_stroke() {

@@ -36,7 +36,7 @@ pub fn normal_residual(
         return NormalResidual { approach, turned, residual: if lowest >= approach { 0.0 } else { 1.0 } };
     }
     let approach = approach.unwrap_or(heights / cells);
-    let scale = length_scale((work - undeformed_work) / load, self_influence, load / cells);
+    let scale = length_scale((work - undeformed_work) / load, [self_influence, load / cells], approach);
     lower(gap, approach);
     let worst = violation(gap, pressure, self_influence);
     NormalResidual { approach, turned, residual: if scale > 0.0 { worst / scale } else { f64::INFINITY } }
@@ -46,10 +46,15 @@ pub fn normal_residual(
 /// displacements end at 1e-16 of that displacement, those of a residual of 1e-8 at 1e-13 of it.
 const LEAST_SCALE: f64 = 1e-5;
 
+/// The approach times this, likewise: a gap is a difference of heights as large as that, so that its digits end at 1e-16 of it. Surfaces that
+/// have worn until hardly anything presses are displaced by less.
+const LEAST_OF_APPROACH: f64 = 1e-7;
+
 /// What violations are measured by [length]: the mean displacement under the load, which is no more than rounding where surfaces are flat
-/// and periodic, so that nothing but their uniform pressure acts.
-pub fn length_scale(mean_displacement: f64, self_influence: f64, mean_pressure: f64) -> f64 {
-    mean_displacement.abs().max(LEAST_SCALE * self_influence * mean_pressure)
+/// and periodic, so that nothing but their uniform pressure acts, or where hardly anything presses.
+pub fn length_scale(mean_displacement: f64, [self_influence, mean_pressure]: [f64; 2], approach: f64) -> f64 {
+    let least = (LEAST_SCALE * self_influence * mean_pressure).max(LEAST_OF_APPROACH * approach.abs());
+    mean_displacement.abs().max(least)
 }
 
 /// Largest `|min(g, K p)|` over the cells [length], K being the self-influence.
@@ -139,6 +144,18 @@ mod tests {
         assert_eq!(residual(None), NormalResidual { approach: 1.0, turned: [0.0; 2], residual: 0.0 });
         assert_eq!(residual(Some(0.5)).residual, 0.0);
         assert_eq!(gap, [0.5, 1.5]);
+    }
+
+    /// Of a pressure that displaces the surfaces by a millionth of a billionth of the approach no digit of the gap is left; by a millionth, all that
+    /// a residual asks for.
+    #[test]
+    fn what_hardly_presses_is_measured_by_the_digits_of_heights() {
+        let residual = |gap: f64, displacement: f64| {
+            let read = ([1.0, 1.0], [displacement; 2], [1.0, 1.0 + gap]);
+            normal_residual(&read.0, &read.1, &read.2, 1e-20, Some(1.0 + displacement), &mut Vec::new()).residual
+        };
+        assert!(residual(f64::EPSILON, 1e-15) < 1e-8);
+        assert!((residual(1e-9, 1e-6) / 1e-3 - 1.0).abs() < 1e-6);
     }
 
     /// A load that displaces nothing, as that of a flat surface on a flat one, is measured by what a cell's own pressure displaces: closed

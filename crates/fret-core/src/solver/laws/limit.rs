@@ -131,7 +131,7 @@ mod tests {
         let positions = CellPositions::new(vec![-1.0, 0.0, 1.0], vec![0.0], true);
         let loads = TangentialLoads { by_force: [true; 3], ..TangentialLoads::default() };
         let motions = positions.motions_of(&ContactSet::of(3, |_| true), loads);
-        let fraction = carried_fraction(&[2.0, 7.0, 2.0], &motions, [0.0, 0.0, 8.0]);
+        let Sliding { fraction, .. } = sliding(&[2.0, 7.0, 2.0], &motions, [0.0, 0.0, 8.0]);
         assert!((fraction - 0.5).abs() < 1e-12, "{fraction}");
     }
 }

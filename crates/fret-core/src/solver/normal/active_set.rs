@@ -129,7 +129,7 @@ fn examine(problem: &mut NormalIteration<'_>) -> Violations {
     let inner = largest_of(&Size, [residual]);
     let outer = largest_of(&Violation { own }, [gap, pressure, active]);
     let mean = work / load - problem.task.load.give * load;
-    let scale = if load > 0.0 { length_scale(mean, own, load / count.max(1.0)) } else { 0.0 };
+    let scale = if load > 0.0 { length_scale(mean, [own, load / count.max(1.0)], approach) } else { 0.0 };
     let relative = |size: f64| if scale > 0.0 { size / scale } else { f64::INFINITY };
     Violations {
         approach,

@@ -179,8 +179,8 @@ impl<'a> NormalIteration<'a> {
             Some(_) if count > 0.0 => heights / count,
             _ => self.task.load.approach,
         };
-        let scale =
-            || length_scale(work / load - self.task.load.give * load, self.self_influence, load / count);
+        let mean = work / load - self.task.load.give * load;
+        let scale = || length_scale(mean, [self.self_influence, load / count], approach);
         (approach, (load > 0.0).then(scale))
     }
 
