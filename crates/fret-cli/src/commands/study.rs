@@ -7,8 +7,8 @@ use fret_core::machine::memory;
 use fret_core::plan::Plan;
 use fret_core::run::{Observer, RunError};
 use fret_core::study::{
-    Advice, ClosedForm, Convergence, Kind, Level, Line, Place, Quantity, Reference, RefinementStudy,
-    Resolutions, pressure_is_unbounded, solved_level,
+    ClosedForm, Level, Line, Place, Quantity, Reference, RefinementStudy, Resolutions, pressure_is_unbounded,
+    solved_level,
 };
 use serde_json::{Value, json};
 
@@ -19,6 +19,7 @@ use crate::figures::{counted, duration};
 use crate::interrupt::{self, Listener};
 use crate::report::study::STUDY;
 use crate::study::levels::{LEVELS, Levels};
+use crate::study::record::StudyRecord;
 use crate::study::{picture, reference, table, words};
 use crate::terminal;
 use crate::threads;
@@ -139,7 +140,7 @@ pub fn studied(
     } else {
         words::NO_ERRORS.to_owned()
     };
-    let record = answer(title, &reference, (&study, &lines), (&advice, &choice), &unsolved);
+    let record = json!(StudyRecord::new(title, &reference, (&study, &lines), (&advice, &choice), &unsolved));
     Ok(Studied { record, study, reference, lines, measured, choice })
 }
 
@@ -283,41 +284,4 @@ fn timed(plan: &Plan, observer: &mut dyn Observer) -> Result<Level, Failure> {
         }
     }
     Ok(best)
-}
-
-/// The whole answer for programs.
-fn answer(
-    title: &str,
-    reference: &Reference,
-    (study, lines): (&RefinementStudy, &[Line]),
-    (advice, choice): (&[Advice], &str),
-    unsolved: &Unsolved,
-) -> Value {
-    let sources = Quantity::ALL
-        .into_iter()
-        .map(|quantity| (quantity.name().to_owned(), json!(reference.source(quantity))));
-    let references =
-        Quantity::ALL.into_iter().map(|quantity| (quantity.name().to_owned(), json!(reference.of(quantity))));
-    // only where the study says something of it: a closed form or numbers from elsewhere do not ask how it converges
-    let convergence = Quantity::ALL.into_iter().map(|quantity| {
-        let told =
-            reference.source(quantity).is_some() || reference.convergence(quantity) == Convergence::NoLimit;
-        (quantity.name().to_owned(), json!(told.then(|| reference.convergence(quantity))))
-    });
-    json!({
-        "status": "studied",
-        "title": title,
-        "closed_form": reference.form().map(ClosedForm::name),
-        "measured_by": Value::Object(sources.collect()),
-        "references": Value::Object(references.collect()),
-        "convergence": Value::Object(convergence.collect()),
-        "kinds": Kind::ALL,
-        "lines": table::to_json(study, lines),
-        "unsolved": unsolved.iter().map(|(place, why)| {
-            let variation = study.resolutions().at(*place);
-            json!({ "cells": variation.cells, "increments": variation.increments, "message": why })
-        }).collect::<Vec<_>>(),
-        "advice": advice,
-        "choice": choice,
-    })
 }

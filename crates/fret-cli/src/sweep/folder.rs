@@ -145,7 +145,7 @@ impl SweepFolder {
         let at =
             firsts.map(|point| question.keys.iter().cloned().zip(point.values[..beside].to_vec()).collect());
         let spread = Spread::new(keys, design, at.collect(), &columns);
-        write_whole(&self.path.join(UNCERTAINTY), format!("{:#}\n", spread.to_json()).as_bytes())?;
+        write_whole(&self.path.join(UNCERTAINTY), format!("{:#}\n", json!(spread.record())).as_bytes())?;
         Ok(Some(spread.table()))
     }
 

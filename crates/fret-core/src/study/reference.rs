@@ -2,7 +2,7 @@
 //! its finest level.
 
 use ndarray::Array2;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::closed_form::ClosedForm;
 use super::level::Level;
@@ -19,7 +19,7 @@ const NOISE: f64 = 10.0;
 pub(super) const NOTHING: f64 = 1e-9;
 
 /// Where a reference comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Source {
     /// A closed form.
@@ -33,7 +33,7 @@ pub enum Source {
 }
 
 /// What is known of the way a quantity approaches its limit in a study.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Convergence {
     /// With the order its levels show.

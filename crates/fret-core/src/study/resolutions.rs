@@ -1,6 +1,6 @@
 //! A study of resolutions: each kind of refinement alone with the others at their finest, and cells and increments together.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::variation::{Variation, fewest, rows};
 use crate::case::check::{FEWEST_CELLS as FEWEST_OF_A_CASE, MOST_CELLS, MOST_CELLS_IN_ALL};
@@ -11,7 +11,7 @@ use crate::plan::{Coupling, Plan};
 const FEWEST_CELLS: usize = 8;
 
 /// What is refined along a line of levels.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// Cells, at the most increments and the least tolerance.
