@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use fret_core::case::Units;
+use fret_core::model::Dimension;
 use fret_core::scar::{Asked, Comparison, Line, Pair, compare, read};
 use ndarray::Array2;
 use serde_json::{Value, json};
@@ -38,7 +39,7 @@ pub fn compare_scar(arguments: &CompareScarArguments, as_json: bool) -> Result<(
         .map_err(|refused| Failure::Call(refused.what, refused.help))?;
     let worn = Worn::of(&run, arguments.body.as_deref())?;
     let axis = usize::from(arguments.along == "y");
-    if axis == 1 && run.grid().is_line() {
+    if !run.grid().dimension().axes().contains(&axis) {
         let what = "a line contact has the same wear depth all along y".to_owned();
         return Err(Failure::Call(what, "--along x".to_owned()));
     }
@@ -152,7 +153,7 @@ impl Answer<'_> {
     }
 
     fn csv(&self) -> String {
-        let head = |name: &str| Units::heading(self.run.units(), name, "length", false);
+        let head = |name: &str| Units::heading(self.run.units(), name, "length", Dimension::Plane);
         let mut text =
             format!("{},{},{}\n", head(self.along), head("computed_depth"), head("measured_depth"));
         for ((x, computed), measured) in
@@ -196,7 +197,7 @@ impl Answer<'_> {
             let _ = writeln!(text, "  {name:<8} {computed:<18} {measured:<18} {difference}");
         }
         let length = |value: f64| figure_in(units, value, "length");
-        let kind_of_volume = if self.run.grid().is_line() { "length^2" } else { "length^3" };
+        let kind_of_volume = self.run.grid().dimension().kind("length^3");
         let _ = writeln!(text, "  volume   {}", figure_in(units, self.volume(), kind_of_volume));
         let _ = writeln!(text, "  root mean square of the difference: {}", length(found.difference));
         let _ = writeln!(

@@ -13,7 +13,7 @@ use fret_core::conduction::{
 };
 use fret_core::history::CycleRecord;
 use fret_core::machine::memory;
-use fret_core::model::Conductor;
+use fret_core::model::{Conductor, Dimension};
 use fret_core::plan::memory_of_stress;
 use ndarray::Array2;
 use serde_json::{Value, json};
@@ -60,7 +60,9 @@ pub fn heat(arguments: &HeatArguments, as_json: bool) -> Result<(), Failure> {
 /// Temperatures and resistances of a run that has just ended; nothing of what has none: a line contact, a run without kept fields.
 pub fn answered(folder: &Path) -> Result<Option<(Value, String)>, Failure> {
     let run = Results::read(folder)?;
-    let has_none = run.case().conduction.is_none() || run.grid().is_line() || run.fields.reached.is_empty();
+    let has_none = run.case().conduction.is_none()
+        || run.grid().dimension() == Dimension::Line
+        || run.fields.reached.is_empty();
     if has_none { Ok(None) } else { computed(folder, &run, None).map(Some) }
 }
 

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use fret_core::history::Warning;
 use fret_core::machine::memory::{self, MemoryError, amount};
-use fret_core::model::Body;
+use fret_core::model::{Body, Dimension};
 use fret_core::plan::{Coupling, Plan};
 use fret_core::run::plausibility;
 use fret_core::study::{Expectation, expectation};
@@ -141,7 +141,7 @@ pub fn cells(plan: &Plan) -> String {
     let unit = plan.case.units.as_ref().map_or_else(String::new, |units| format!(" {}", units.length));
     let figure = |value: f64| format!("{}{unit}", figure(value));
     let ([nx, ny], [dx, dy], [width, depth]) = (plan.grid.cells(), plan.grid.spacing(), plan.grid.size());
-    if plan.grid.is_line() {
+    if plan.grid.dimension() == Dimension::Line {
         let datum = plan.datum.map_or_else(String::new, |datum| {
             format!("; approach and shift are relative to {} below the load", figure(datum))
         });
@@ -159,8 +159,8 @@ pub fn cells(plan: &Plan) -> String {
 /// Cells in the contact radius that is expected under the heaviest load: in the shorter one of an ellipse, in the half-width of a line
 /// contact. `None` where only the run can tell.
 pub fn cells_in_contact_radius(plan: &Plan) -> Option<f64> {
-    let ([x, y], [dx, dy]) = (plan.expected?.half_widths, plan.grid.spacing());
-    Some(if plan.grid.is_line() { x / dx } else { (x / dx).min(y / dy) })
+    let (half_widths, spacing) = (plan.expected?.half_widths, plan.grid.spacing());
+    plan.grid.dimension().axes().map(|axis| half_widths[axis] / spacing[axis]).reduce(f64::min)
 }
 
 /// The expected contact in words.
@@ -169,10 +169,10 @@ pub fn expected_contact(plan: &Plan) -> Option<String> {
     let [x, y] = plan.expected?.half_widths;
     let unit = plan.case.units.as_ref().map_or_else(String::new, |units| format!(" {}", units.length));
     let is_round = (x - y).abs() <= 0.1 * x.max(y); // they are known to a twentieth
-    let what = match (plan.grid.is_line(), is_round) {
-        (true, _) => format!("half-width, about {}{unit}", two_digits(x)),
-        (false, true) => format!("contact radius, about {}{unit}", two_digits((x * y).sqrt())),
-        (false, false) => {
+    let what = match (plan.grid.dimension(), is_round) {
+        (Dimension::Line, _) => format!("half-width, about {}{unit}", two_digits(x)),
+        (Dimension::Plane, true) => format!("contact radius, about {}{unit}", two_digits((x * y).sqrt())),
+        (Dimension::Plane, false) => {
             format!("shorter half-axis of the contact, about {} x {}{unit}", two_digits(x), two_digits(y))
         }
     };

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use fret_core::case::{Side, StressRequest};
-use fret_core::model::{Body, HalfSpace};
+use fret_core::model::{Body, Dimension, HalfSpace};
 use fret_core::subsurface::{
     DepthPoint, LoadedSurface, StressField, Tractions, automatic_depths, depth_points, displacements, survey,
 };
@@ -110,10 +110,13 @@ fn computed(folder: &Path, run: &Results, request: &StressRequest) -> Result<Ans
     let place = folder_below(folder, Path::new("stress"))?;
     let constants = run.fatigue_constants(request);
     let mut tables = StressTables::new(run, request, (half_space, &constants), &points, &surfaces);
+    // those of a line contact need a datum
+    let has_displacements = run.grid().dimension() == Dimension::Plane;
     let mut volume = if request.volume {
         let depths: Vec<f64> = points.iter().map(|point| point.depth).collect();
         let name = format!("volume-{:05}.vtr", surfaces.last().map_or(0, |surface| surface.increment));
-        let fields = [&STRESSES[..], if run.grid().is_line() { &[] } else { &DISPLACEMENTS }].concat();
+        let displacements: &[_] = if has_displacements { &DISPLACEMENTS } else { &[] };
+        let fields = [&STRESSES[..], displacements].concat();
         Some(Volume::create(&place.join(name), run.grid(), &depths, &fields, run.units())?)
     } else {
         None
@@ -143,7 +146,7 @@ fn computed(folder: &Path, run: &Results, request: &StressRequest) -> Result<Ans
         return Err(stopped(folder));
     }
     if let Some(mut volume) = volume {
-        if let (false, Some(surface)) = (run.grid().is_line(), surfaces.last()) {
+        if let (true, Some(surface)) = (has_displacements, surfaces.last()) {
             displace(&mut volume, (run, half_space), &points, surface)?;
         }
         volume.close()?;

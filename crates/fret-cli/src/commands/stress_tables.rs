@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use fret_core::case::{StressRequest, Units};
-use fret_core::model::{Base, HalfSpace};
+use fret_core::model::{Base, Dimension, HalfSpace};
 use fret_core::subsurface::fatigue::LayerConstants;
 use fret_core::subsurface::largest::look;
 use fret_core::subsurface::{DepthPoint, Largest, LoadedSurface, Measure, StressField};
@@ -227,7 +227,7 @@ impl<'a> StressTables<'a> {
                 counted(self.points.len(), "depth"),
                 counted(self.surfaces.len(), "increment"),
             );
-        let head = |name: &str, kind: &str| Units::heading(self.run.units(), name, kind, false);
+        let head = |name: &str, kind: &str| Units::heading(self.run.units(), name, kind, Dimension::Plane);
         let [value, x, y, depth] =
             [("value", "pressure"), ("x", "length"), ("y", "length"), ("depth", "length")]
                 .map(|(name, kind)| head(name, kind));
@@ -264,7 +264,7 @@ impl<'a> StressTables<'a> {
 
 /// The head of `depths.csv`.
 fn head_by_depth(units: Option<&Units>) -> String {
-    let head = |name: &str, kind: &str| Units::heading(units, name, kind, false);
+    let head = |name: &str, kind: &str| Units::heading(units, name, kind, Dimension::Plane);
     let measures = Measure::ALL.map(|measure| head(measure.name(), kind_of_stress(measure.name())));
     format!("increment,{},layer,{}\n", head("depth", "length"), measures.join(","))
 }

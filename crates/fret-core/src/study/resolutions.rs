@@ -92,14 +92,17 @@ impl Resolutions {
             only_one_grid(plan)?;
         }
         let [nx, ny] = own.cells;
-        let is_line = plan.grid.is_line();
-        let across = |count: usize| {
-            if is_line { 1 } else { (count as f64 * ny as f64 / nx as f64).round().max(1.0) as usize }
+        let axes = plan.grid.dimension().axes();
+        let across = |count: usize| match axes.len() {
+            1 => 1,
+            _ => (count as f64 * ny as f64 / nx as f64).round().max(1.0) as usize,
         };
         let grids: Vec<[usize; 2]> = cells.iter().map(|count| [*count, across(*count)]).collect();
         for &[along, across] in &grids {
-            let sides = if is_line { [along; 2] } else { [along, across] };
-            if sides.iter().any(|side| !(FEWEST_OF_A_CASE..=MOST_CELLS).contains(side)) {
+            if [along, across][axes.clone()]
+                .iter()
+                .any(|side| !(FEWEST_OF_A_CASE..=MOST_CELLS).contains(side))
+            {
                 return Err(ResolutionError::Cells(along, across));
             }
             if along * across > MOST_CELLS_IN_ALL {

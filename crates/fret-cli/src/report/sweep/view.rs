@@ -142,7 +142,7 @@ impl View {
 
     /// The unit of a kind of quantity, where the cases declare units.
     pub fn unit(&self, kind: &str) -> Option<String> {
-        unit_of(self.record.units.as_ref(), kind, self.record.is_line)
+        unit_of(self.record.units.as_ref(), kind, self.record.dimension)
     }
 
     /// The name of a column as an axis.
