@@ -20,7 +20,7 @@ use crate::drawing::scale::Label;
 use crate::failure::Failure;
 use crate::figures::{figure, figure_in};
 use crate::identify::name_of;
-use crate::terminal;
+use crate::terminal::Answer;
 use fret_results::Results;
 use fret_results::{folder_below, write_whole};
 
@@ -28,7 +28,7 @@ use fret_results::{folder_below, write_whole};
 const OF_BOTH: &str = "worn_depth";
 
 /// Compares the last kept wear depth of a run with a measured line.
-pub fn compare_scar(arguments: &CompareScarArguments, as_json: bool) -> Result<(), Failure> {
+pub fn compare_scar(arguments: &CompareScarArguments) -> Result<Answer, Failure> {
     let asked = Asked {
         columns: pairs("--columns", &arguments.columns, "position=x,height=z")?,
         units: pairs("--units", &arguments.units, "position=um,height=nm")?,
@@ -46,18 +46,13 @@ pub fn compare_scar(arguments: &CompareScarArguments, as_json: bool) -> Result<(
     let found = compare(&worn.section(&run, axis), run.grid().spacing()[axis], measured)
         .map_err(|refused| Failure::Call(refused.what, refused.help))?;
     let place = folder_below(&arguments.folder, Path::new("scar"))?;
-    let answer = Answer { run: &run, worn: &worn, along: &arguments.along, found: &found };
+    let answer = BesideMeasured { run: &run, worn: &worn, along: &arguments.along, found: &found };
     let record = answer.record();
     write_whole(&place.join("scar.json"), format!("{record:#}\n").as_bytes())?;
     write_whole(&place.join("scar.csv"), answer.csv().as_bytes())?;
     write_whole(&place.join("scar.svg"), answer.picture().as_bytes())?;
-    if as_json {
-        return terminal::answer_in_json(&record);
-    }
-    if !arguments.quiet {
-        terminal::answer(&format!("{}\nwritten to {}", answer.text(), place.display()))?;
-    }
-    Ok(())
+    let text = format!("{}\nwritten to {}", answer.text(), place.display());
+    Ok(Answer::new(record, text, arguments.quiet))
 }
 
 /// The last kept wear depth of a run.
@@ -111,14 +106,14 @@ impl Worn {
 }
 
 /// What is told.
-struct Answer<'a> {
+struct BesideMeasured<'a> {
     run: &'a Results,
     worn: &'a Worn,
     along: &'a str,
     found: &'a Comparison,
 }
 
-impl Answer<'_> {
+impl BesideMeasured<'_> {
     fn record(&self) -> Value {
         let found = self.found;
         let numbers: serde_json::Map<String, Value> = found

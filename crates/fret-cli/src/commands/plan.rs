@@ -14,7 +14,7 @@ use serde_json::json;
 use crate::failure::Failure;
 use crate::figures::{LONGEST_TITLE, counted, duration, figure, shortened};
 use crate::summary::warning_line;
-use crate::terminal;
+use crate::terminal::Answer;
 use crate::threads;
 use fret_results::{CaseFile, planned_from};
 
@@ -23,7 +23,7 @@ const STAGE_LETTERS: usize = 60;
 
 /// A plan with what it will take.
 #[derive(Serialize)]
-struct Answer<'a> {
+struct Record<'a> {
     #[serde(flatten)]
     plan: &'a Plan,
     status: &'static str,
@@ -36,7 +36,7 @@ struct Answer<'a> {
 }
 
 /// Plans a case and tells the plan.
-pub fn plan(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failure> {
+pub fn plan(path: &Path, from: Option<&str>) -> Result<Answer, Failure> {
     let plan = planned_from(&CaseFile::asked(path)?, from)?;
     let lacking = memory::check(plan.memory_bytes).err();
     // A run that cannot be begun takes no time, and a part of it may be too much.
@@ -44,19 +44,18 @@ pub fn plan(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failur
         None => Some(threads::pool(threads::asked(None))?.install(|| expectation(&plan))),
         Some(_) => None,
     };
-    if as_json {
-        return terminal::answer_in_json(&json!(Answer {
-            status: "planned",
-            cells_in_contact_radius: cells_in_contact_radius(&plan),
-            increments_expected: expected.map(|expected| expected.increments),
-            convolutions_expected: expected.map(|expected| expected.convolutions),
-            seconds_expected: expected.map(|expected| expected.seconds),
-            memory_lacking: lacking.map(|error| format!("this {error}")),
-            warnings: plausibility::of_plan(&plan),
-            plan: &plan,
-        }));
-    }
-    terminal::answer(&table(&plan, expected.as_ref(), lacking.as_ref()))
+    let text = table(&plan, expected.as_ref(), lacking.as_ref());
+    let record = Record {
+        status: "planned",
+        cells_in_contact_radius: cells_in_contact_radius(&plan),
+        increments_expected: expected.map(|expected| expected.increments),
+        convolutions_expected: expected.map(|expected| expected.convolutions),
+        seconds_expected: expected.map(|expected| expected.seconds),
+        memory_lacking: lacking.map(|error| format!("this {error}")),
+        warnings: plausibility::of_plan(&plan),
+        plan: &plan,
+    };
+    Ok(Answer::new(json!(record), text, false))
 }
 
 fn table(plan: &Plan, expected: Option<&Expectation>, lacking: Option<&MemoryError>) -> String {

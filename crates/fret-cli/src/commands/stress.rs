@@ -11,15 +11,16 @@ use fret_core::model::{Body, Dimension, HalfSpace};
 use fret_core::subsurface::{
     DepthPoint, LoadedSurface, StressField, Tractions, automatic_depths, depth_points, displacements, survey,
 };
-use serde_json::Value;
+use serde_json::json;
 
 use super::loaded_surfaces::{loaded_surfaces, reach, stopped};
-use super::stress_tables::{Answer, StressTables};
+use super::stress_record::StressRecord;
+use super::stress_tables::StressTables;
 use crate::arguments::StressArguments;
 use crate::export::volume::{Field, Volume};
 use crate::failure::{Failure, Unwritten};
 use crate::interrupt;
-use crate::terminal;
+use crate::terminal::{self, Answer};
 use crate::threads;
 use fret_results::Results;
 use fret_results::folder_below;
@@ -42,15 +43,7 @@ const DISPLACEMENTS: [Field; 3] =
     [("displacement_x", "length"), ("displacement_y", "length"), ("displacement_z", "length")];
 
 /// Computes stresses for a result folder.
-pub fn stress(arguments: &StressArguments, as_json: bool) -> Result<(), Failure> {
-    let record = stress_of(arguments, as_json)?;
-    if as_json {
-        terminal::answer_in_json(&record)?;
-    }
-    Ok(())
-}
-
-fn stress_of(arguments: &StressArguments, as_json: bool) -> Result<Value, Failure> {
+pub fn stress(arguments: &StressArguments) -> Result<Answer, Failure> {
     interrupt::listen();
     let run = Results::read(&arguments.folder)?;
     if run.case().wear.as_ref().is_some_and(|wear| wear.thinning_tolerance.is_some()) {
@@ -60,11 +53,8 @@ fn stress_of(arguments: &StressArguments, as_json: bool) -> Result<Value, Failur
     }
     let request = requested(arguments, &run);
     let pool = threads::pool(threads::asked(arguments.threads))?;
-    let answer = pool.install(|| computed(&arguments.folder, &run, &request))?;
-    if !arguments.quiet && !as_json {
-        terminal::answer(&answer.table)?;
-    }
-    Ok(answer.record)
+    let (record, text) = pool.install(|| computed(&arguments.folder, &run, &request))?;
+    Ok(Answer::new(json!(record), text, arguments.quiet))
 }
 
 /// What the call asks for, or else the case.
@@ -92,7 +82,11 @@ fn requested(arguments: &StressArguments, run: &Results) -> StressRequest {
     request
 }
 
-fn computed(folder: &Path, run: &Results, request: &StressRequest) -> Result<Answer, Failure> {
+fn computed(
+    folder: &Path,
+    run: &Results,
+    request: &StressRequest,
+) -> Result<(StressRecord, String), Failure> {
     let started = Instant::now();
     let Body::Elastic(half_space) = request.body.of(&run.case().bodies) else {
         let other = if request.body == Side::Lower { "upper" } else { "lower" };
@@ -184,7 +178,7 @@ fn fill(volume: &mut Volume, point: usize, field: &StressField) -> Result<(), Un
 }
 
 /// Stresses of a run that has just ended, as its case asks; nothing where it does not.
-pub fn answered(folder: &Path) -> Result<Option<Answer>, Failure> {
+pub fn answered(folder: &Path) -> Result<Option<(StressRecord, String)>, Failure> {
     let run = Results::read(folder)?;
     let Some(request) = run.case().stress.clone() else { return Ok(None) };
     computed(folder, &run, &request).map(Some)
@@ -193,7 +187,7 @@ pub fn answered(folder: &Path) -> Result<Option<Answer>, Failure> {
 /// The same, told to a person.
 pub fn after_run(folder: &Path, quiet: bool) -> Result<(), Failure> {
     match answered(folder)? {
-        Some(answer) if !quiet => terminal::answer(&answer.table),
+        Some((_, text)) if !quiet => terminal::answer(&text),
         _ => Ok(()),
     }
 }

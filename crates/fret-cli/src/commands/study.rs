@@ -21,7 +21,7 @@ use crate::report::study::STUDY;
 use crate::study::levels::{LEVELS, Levels};
 use crate::study::record::StudyRecord;
 use crate::study::{picture, reference, table, words};
-use crate::terminal;
+use crate::terminal::{self, Answer};
 use crate::threads;
 use fret_results::CaseFile;
 use fret_results::{folder_for_answers, write_whole};
@@ -34,7 +34,7 @@ const QUICK: f64 = 0.3;
 const TIMES: usize = 3;
 
 /// Studies a case.
-pub fn study(arguments: &StudyArguments, as_json: bool) -> Result<(), Failure> {
+pub fn study(arguments: &StudyArguments) -> Result<Answer, Failure> {
     let case_file = CaseFile::asked(&arguments.case)?;
     let plan = case_file.planned()?;
     let question = Question::new(arguments, &plan)?;
@@ -64,15 +64,13 @@ pub fn study(arguments: &StudyArguments, as_json: bool) -> Result<(), Failure> {
     write_whole(&folder.join("study.svg"), picture::picture(&title, study, lines).as_bytes())?;
     write_whole(&folder.join(STUDY), format!("{text}\n").as_bytes())?;
     kept.remove();
-    if as_json {
-        return terminal::answer_in_json(&studied.record);
-    }
     let Studied { measured, choice, reference, .. } = &studied;
-    terminal::answer(&format!(
+    let text = format!(
         "{title}\n{measured}\n\n{}\n\n{choice}\n\nresults    {}",
         table::table(study, lines, reference),
         folder.display()
-    ))
+    );
+    Ok(Answer::new(studied.record, text, false))
 }
 
 /// What is to be studied: resolutions that fit into memory, and what they are compared with.
