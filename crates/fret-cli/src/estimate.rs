@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use fret_core::model::Dimension;
 use fret_core::plan::{Coupling, Plan};
 use fret_core::run::{Observer, RunError};
 use fret_core::study::{Bar, Bars, Quantity, StageQuantities, error_bars, resolved, solved_level};
@@ -94,7 +95,7 @@ impl Estimate {
             }
             table.push('\n');
         };
-        let is_line = self.cells[1] == 1;
+        let dimension = Dimension::of(self.cells);
         for quantity in Quantity::ALL {
             let scalar = |bars: &Bars| number(&bars.of(quantity), 0);
             match quantity {
@@ -106,8 +107,8 @@ impl Estimate {
                         });
                     }
                 }
-                Quantity::ContactArea if is_line => row("contact width", &scalar),
-                Quantity::StickArea if is_line => row("stick width", &scalar),
+                Quantity::ContactArea if dimension == Dimension::Line => row("contact width", &scalar),
+                Quantity::StickArea if dimension == Dimension::Line => row("stick width", &scalar),
                 Quantity::ContactArea => {
                     row(name(quantity), &scalar);
                     row("radius of a circle of that area", &|bars| radius(&bars.of(quantity)));
@@ -115,8 +116,7 @@ impl Estimate {
                 _ => row(name(quantity), &scalar),
             }
         }
-        let [nx, ny] = self.cells;
-        let cells = if is_line { nx.to_string() } else { format!("{nx} x {ny}") };
+        let cells = dimension.written(self.cells);
         let _ = write!(
             table,
             "from an auxiliary coarse solution on {cells} cells with {}, {}",

@@ -1,6 +1,7 @@
 //! How numbers, counts and names are shown to a person. Files and JSON carry numbers in full and do not pass here.
 
 use fret_core::case::Units;
+use fret_core::model::Dimension;
 
 /// A number to five significant figures, in plain digits where that is short.
 pub fn figure(value: f64) -> String {
@@ -15,13 +16,13 @@ pub fn figure(value: f64) -> String {
 
 /// The same with its unit, where the case declares units; `kind` as in `force x length`.
 pub fn figure_in(units: Option<&Units>, value: f64, kind: &str) -> String {
-    figure(value) + &Units::after(units, kind, false)
+    figure(value) + &Units::after(units, kind, Dimension::Plane)
 }
 
 /// The unit of a kind of quantity as pictures and pages write it, where the case declares units and the quantity has one of them; loads of a
 /// line contact are those of a unit of length.
-pub fn unit_of(units: Option<&Units>, kind: &str, is_line: bool) -> Option<String> {
-    let unit = Units::after(units, kind, is_line);
+pub fn unit_of(units: Option<&Units>, kind: &str, dimension: Dimension) -> Option<String> {
+    let unit = Units::after(units, kind, dimension);
     let unit = unit.trim_start();
     (!unit.is_empty()).then(|| unit.replace("^2", "²").replace("^3", "³"))
 }

@@ -59,32 +59,34 @@ pub fn command_line(words: impl IntoIterator<Item = OsString>) -> u8 {
 
 fn dispatch(arguments: &Arguments) -> Result<(), Told> {
     let as_json = arguments.json;
-    match &arguments.verb {
+    let answer = match &arguments.verb {
+        // these tell more than an answer, or another kind of one
         Verb::Sweep(arguments) => return commands::sweep::sweep(arguments, as_json),
         Verb::Run(arguments) => return commands::run::run(arguments, as_json),
+        Verb::Identify(arguments) => return Ok(commands::identify::identify(arguments, as_json)?),
+        Verb::Sensitivity(arguments) => return Ok(commands::sensitivity::sensitivity(arguments, as_json)?),
+        Verb::Explore(arguments) => return Ok(commands::explore::explore(arguments, as_json)?),
+        Verb::Schema => return Ok(commands::schema::schema()?),
+        Verb::Completions { shell } => return Ok(commands::shells::completions(*shell)?),
+        Verb::Man { out: None } => return Ok(commands::shells::page_of_all()?),
         Verb::Extremes { .. } => Err(Failure::Call(
             "`fret extremes` is no command any more".to_owned(),
             "run `cargo xtask extremes` in the repository; the page `Stiff and extreme cases` has its table"
                 .to_owned(),
         )),
-        Verb::Identify(arguments) => commands::identify::identify(arguments, as_json),
-        Verb::Check { case, from } => commands::check::check(case, from.as_deref(), as_json),
-        Verb::Plan { case, from } => commands::plan::plan(case, from.as_deref(), as_json),
-        Verb::Init { template, out } => commands::init::init(template.as_deref(), out.as_deref(), as_json),
-        Verb::Explain { warning } => commands::explain::explain(warning.as_deref(), as_json),
-        Verb::Schema => commands::schema::schema(),
-        Verb::Completions { shell } => commands::shells::completions(*shell),
-        Verb::Man { out } => commands::shells::manual(out.as_deref(), as_json),
-        Verb::Report { results, out } => commands::report::report(results, out.as_deref(), as_json),
-        Verb::Explore(arguments) => commands::explore::explore(arguments, as_json),
-        Verb::Export(arguments) => commands::export::export(arguments, as_json),
-        Verb::Sensitivity(arguments) => commands::sensitivity::sensitivity(arguments, as_json),
-        Verb::Study(arguments) => commands::study::study(arguments, as_json),
-        Verb::Stress(arguments) => commands::stress::stress(arguments, as_json),
-        Verb::CompareScar(arguments) => commands::compare_scar::compare_scar(arguments, as_json),
-        Verb::Heat(arguments) => commands::heat::heat(arguments, as_json),
+        Verb::Man { out: Some(out) } => commands::shells::pages(out),
+        Verb::Check { case, from } => commands::check::check(case, from.as_deref()),
+        Verb::Plan { case, from } => commands::plan::plan(case, from.as_deref()),
+        Verb::Init { template, out } => commands::init::init(template.as_deref(), out.as_deref()),
+        Verb::Explain { warning } => commands::explain::explain(warning.as_deref()),
+        Verb::Report { results, out } => commands::report::report(results, out.as_deref()),
+        Verb::Export(arguments) => commands::export::export(arguments),
+        Verb::Study(arguments) => commands::study::study(arguments),
+        Verb::Stress(arguments) => commands::stress::stress(arguments),
+        Verb::CompareScar(arguments) => commands::compare_scar::compare_scar(arguments),
+        Verb::Heat(arguments) => commands::heat::heat(arguments),
     }?;
-    Ok(())
+    Ok(answer.tell(as_json)?)
 }
 
 /// Help and version are answers; anything else clap objects to is a refusal, for which clap's own exit code 2 is taken.

@@ -1,7 +1,7 @@
 //! A paragraph on methods, for the reader who writes a paper: what was solved, on which grid, how, to which residual.
 
 use fret_core::case::Case;
-use fret_core::model::{Body, Integration};
+use fret_core::model::{Body, Dimension, Integration};
 use fret_core::plan::{Coupling, Plan};
 
 use crate::figures::counted;
@@ -22,18 +22,22 @@ pub fn paragraph<M, H>(
     };
     let mut sentences = vec![format!(
         "The {} was solved with fretting {version}{commit}, a boundary element program for elastic half-spaces.",
-        if grid.is_line() { "line contact (plane strain)" } else { "contact" }
+        match grid.dimension() {
+            Dimension::Plane => "contact",
+            Dimension::Line => "line contact (plane strain)",
+        }
     )];
     let extent = |side: f64| format!("{}{unit}", short(side));
-    sentences.push(if grid.is_line() {
-        format!("The potential contact area, {} long, had {nx} cells of uniform traction.", extent(width))
-    } else {
-        format!(
+    sentences.push(match grid.dimension() {
+        Dimension::Plane => format!(
             "The potential contact area of {} x {} had {nx} x {ny} cells of uniform traction{}.",
             extent(width),
             extent(depth),
             if case.periodic { ", repeated periodically along x and y" } else { "" }
-        )
+        ),
+        Dimension::Line => {
+            format!("The potential contact area, {} long, had {nx} cells of uniform traction.", extent(width))
+        }
     });
     let layers = |body: &Body| match body {
         Body::Elastic(half_space) => half_space.coatings().len(),

@@ -3,8 +3,9 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use fret_core::case::{Stage, Units};
+use fret_core::case::Stage;
 use fret_core::history::{CycleRecord, CycleRegime, Drive, StepRecord, Warning, WornTo};
+use fret_core::model::Dimension;
 use fret_core::plan::{Coupling, Plan};
 use fret_core::study::pressure_is_unbounded;
 use serde::Serialize;
@@ -45,7 +46,8 @@ pub struct Summary<'a> {
     pub estimate: Option<&'a Estimate>,
 }
 
-type Reading = fn(&StepRecord) -> String;
+/// A row of the table: its name, the kind of its unit, what it says of the end of a stage.
+type Reading = (&'static str, &'static str, fn(&StepRecord) -> String);
 
 impl Summary<'_> {
     /// The table.
@@ -58,8 +60,8 @@ impl Summary<'_> {
         let shown = &ends[ends.len().saturating_sub(MOST_COLUMNS)..];
         let names = shown.iter().map(|record| self.stage_name(record.stage));
         row(&mut table, "after stage", names.map(|name| shortened(name, COLUMN - 2)));
-        for (name, reading) in self.readings() {
-            row(&mut table, &self.heading(name), shown.iter().map(reading));
+        for (name, kind, reading) in self.readings() {
+            row(&mut table, &self.plan.case.heading(name, kind), shown.iter().map(reading));
         }
         if self.plan.case.wear.is_some() || self.plan.case.friction_evolution.is_some() {
             let cycles = || shown.iter().map(|record| self.cycles_of(record.stage));
@@ -120,72 +122,77 @@ impl Summary<'_> {
         table
     }
 
-    fn readings(&self) -> Vec<(&'static str, Reading)> {
-        let mut readings: Vec<(&'static str, Reading)> = vec![
-            ("normal force", |record| figure(record.normal_force)),
-            ("approach", |record| figure(record.approach)),
-            ("max pressure", |record| figure(record.max_pressure)),
+    fn readings(&self) -> Vec<Reading> {
+        let dimension = self.plan.grid.dimension();
+        let mut readings: Vec<Reading> = vec![
+            ("normal force", "force", |record| figure(record.normal_force)),
+            ("approach", "length", |record| figure(record.approach)),
+            ("max pressure", "pressure", |record| figure(record.max_pressure)),
         ];
         if self.plan.case.counts_mean_gap() {
-            readings[1] = ("mean gap", |record| record.mean_gap.map_or("-".to_owned(), figure));
+            readings[1] = ("mean gap", "length", |record| record.mean_gap.map_or("-".to_owned(), figure));
         }
-        if self.plan.grid.is_line() {
-            readings[0].0 = "normal force per unit length";
-            readings.push(("contact width", |record| figure(record.contact_area)));
-        } else {
-            readings.push(("contact area", |record| figure(record.contact_area)));
-            readings.push(("radius of a circle of that area", |record| {
-                figure((record.contact_area / std::f64::consts::PI).sqrt())
-            }));
+        match dimension {
+            Dimension::Plane => readings.extend::<[Reading; 2]>([
+                ("contact area", "length^2", |record| figure(record.contact_area)),
+                ("radius of a circle of that area", "length", |record| {
+                    figure(Dimension::Plane.radius(record.contact_area))
+                }),
+            ]),
+            Dimension::Line => {
+                readings[0].0 = "normal force per unit length";
+                readings.push(("contact width", "length^2", |record| figure(record.contact_area)));
+            }
         }
         if self.plan.coupling != Coupling::Frictionless {
-            readings.extend::<[(&'static str, Reading); 7]>([
-                ("tangential force x", |record| {
+            readings.extend::<[Reading; 7]>([
+                ("tangential force x", "force", |record| {
                     figure_beside(record.tangential_force[0], record.normal_force)
                 }),
-                ("tangential force y", |record| {
+                ("tangential force y", "force", |record| {
                     figure_beside(record.tangential_force[1], record.normal_force)
                 }),
-                ("shift x", |record| figure_beside(record.shift[0], record.approach)),
-                ("shift y", |record| figure_beside(record.shift[1], record.approach)),
-                ("max shear", |record| figure(record.max_shear)),
-                ("stick fraction of the contact", |record| {
+                ("shift x", "length", |record| figure_beside(record.shift[0], record.approach)),
+                ("shift y", "length", |record| figure_beside(record.shift[1], record.approach)),
+                ("max shear", "pressure", |record| figure(record.max_shear)),
+                ("stick fraction of the contact", "", |record| {
                     stick_share(record).map_or("-".to_owned(), percent)
                 }),
-                ("dissipated energy so far", |record| figure(record.dissipated_energy)),
+                ("dissipated energy so far", "force x length", |record| figure(record.dissipated_energy)),
             ]);
         }
         if self.plan.case.friction_evolution.is_some() {
-            readings.push(("mean friction coefficient", |record| figure(record.friction_coefficient)));
+            readings.push(("mean friction coefficient", "", |record| figure(record.friction_coefficient)));
         }
         if self.plan.case.wear.is_some() {
-            readings.push(("worn volume so far", |record| figure(record.worn_volume)));
-            readings.push(("max wear depth", |record| figure(record.max_worn_depth)));
+            readings.push(("worn volume so far", "length^3", |record| figure(record.worn_volume)));
+            readings.push(("max wear depth", "length", |record| figure(record.max_worn_depth)));
         }
         let stages = &self.plan.case.stages;
         if stages.iter().any(|stage| stage.twist.is_some()) {
-            readings.push(("torsional moment", |record| figure(record.twist_moment)));
-            readings.push(("twist", |record| figure(record.twist)));
+            readings.push(("torsional moment", "force x length", |record| figure(record.twist_moment)));
+            readings.push(("twist", "rad", |record| figure(record.twist)));
         }
         if stages.iter().any(Stage::tilts) {
-            readings
-                .push(("tilt moment x", |record| figure_beside(record.tilt_moment[0], record.normal_force)));
-            readings
-                .push(("tilt moment y", |record| figure_beside(record.tilt_moment[1], record.normal_force)));
-            readings.push(("tilt x", |record| figure(record.tilt[0])));
-            readings.push(("tilt y", |record| figure(record.tilt[1])));
+            readings.extend::<[Reading; 4]>([
+                ("tilt moment x", "force x length", |record| {
+                    figure_beside(record.tilt_moment[0], record.normal_force)
+                }),
+                ("tilt moment y", "force x length", |record| {
+                    figure_beside(record.tilt_moment[1], record.normal_force)
+                }),
+                ("tilt x", "rad", |record| figure(record.tilt[0])),
+                ("tilt y", "rad", |record| figure(record.tilt[1])),
+            ]);
         }
         if stages.iter().any(Stage::stretches) {
-            readings.push(("bulk stress x, lower", |record| figure(record.bulk_stress[0][0])));
-            readings.push(("bulk stress x, upper", |record| figure(record.bulk_stress[1][0])));
-            readings.push(("work of the bulk stress so far", |record| figure(record.bulk_work)));
+            readings.extend::<[Reading; 3]>([
+                ("bulk stress x, lower", "pressure", |record| figure(record.bulk_stress[0][0])),
+                ("bulk stress x, upper", "pressure", |record| figure(record.bulk_stress[1][0])),
+                ("work of the bulk stress so far", "force x length", |record| figure(record.bulk_work)),
+            ]);
         }
         readings
-    }
-
-    /// A name with its unit, where the case declares units.
-    fn heading(&self, name: &str) -> String {
-        Units::heading(self.plan.case.units.as_ref(), name, kind_of_row(name), self.plan.grid.is_line())
     }
 
     /// A length with its unit.
@@ -215,7 +222,8 @@ impl Summary<'_> {
                 }
             };
             let value = figure(energy.dissipated_energy);
-            row(table, &format!("{} ", self.heading(&name)), std::iter::once(value));
+            let name = self.plan.case.heading(&name, "force x length");
+            row(table, &format!("{name} "), std::iter::once(value));
             table.truncate(table.len() - 1);
             let _ = writeln!(table, "  {}", self.stage_name(energy.stage));
         };
@@ -251,14 +259,13 @@ impl Summary<'_> {
             (("energy ratio A", ""), cycle.energy_ratio),
             (("sliding ratio D", ""), cycle.sliding_ratio),
         ] {
-            let units = self.plan.case.units.as_ref();
-            let name = Units::heading(units, name, kind, self.plan.grid.is_line());
-            row(table, &name, std::iter::once(told(value)));
+            row(table, &self.plan.case.heading(name, kind), std::iter::once(told(value)));
         }
     }
 
     /// The same for programs; `failure` says why the run ended early, if it did.
     pub fn to_json(&self, failure: Option<&Failure>) -> Value {
+        let dimension = self.plan.grid.dimension();
         let stages: Vec<StageAnswer<'_>> = self
             .tally
             .stage_ends
@@ -266,8 +273,8 @@ impl Summary<'_> {
             .map(|record| StageAnswer {
                 record,
                 name: self.stage_name(record.stage),
-                equivalent_radius: (!self.plan.grid.is_line())
-                    .then(|| (record.contact_area / std::f64::consts::PI).sqrt()),
+                equivalent_radius: (dimension == Dimension::Plane)
+                    .then(|| dimension.radius(record.contact_area)),
                 stick_share: stick_share(record),
             })
             .collect();
@@ -278,7 +285,7 @@ impl Summary<'_> {
             "message": failure.map(Failure::message),
             "title": self.plan.case.title,
             "units": self.plan.case.units,
-            "line_contact": self.plan.grid.is_line(),
+            "line_contact": dimension,
             "datum": self.plan.datum,
             "stages": stages,
             "cycles": cycles,
@@ -344,31 +351,6 @@ fn row(table: &mut String, name: &str, values: impl Iterator<Item = String>) {
         let _ = write!(table, "{value:>width$}");
     }
     table.push('\n');
-}
-
-/// The kind of the quantity of a row, for its unit.
-fn kind_of_row(name: &str) -> &'static str {
-    let begins = |words: &[&str]| words.iter().any(|word| name.starts_with(word));
-    match name {
-        _ if begins(&["normal force", "tangential force"]) => "force",
-        _ if begins(&["approach", "mean gap", "radius", "shift", "max wear depth"]) => "length",
-        _ if begins(&["contact area", "contact width"]) => "length^2",
-        _ if begins(&["max pressure", "max shear", "bulk stress"]) => "pressure",
-        _ if begins(&[
-            "dissipated energy",
-            "energy dissipated",
-            "in each of cycles",
-            "work of",
-            "torsional moment",
-            "tilt moment",
-        ]) =>
-        {
-            "force x length"
-        }
-        _ if begins(&["worn volume"]) => "length^3",
-        _ if begins(&["twist", "tilt"]) => "rad",
-        _ => "",
-    }
 }
 
 /// The sliding condition of a cycle, in words.

@@ -5,12 +5,41 @@ use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 
 use fret_core::case::{printable, steers};
+use serde_json::Value;
 
 use crate::failure::{Failure, Unwritten};
 use crate::figures::shortened;
 
 /// Letters of a line that is said, at the most: names and titles come from files, and may be as long as these.
 const LONGEST_LINE: usize = 2000;
+
+/// What a verb answers: a record for programs, and words for a person; without words nothing is said.
+#[derive(Debug)]
+pub struct Answer {
+    /// For programs.
+    pub record: Value,
+    /// For a person.
+    pub text: String,
+}
+
+impl Answer {
+    /// Both; no words for a person who wants none.
+    pub fn new(record: Value, text: impl Into<String>, quiet: bool) -> Self {
+        Self { record, text: if quiet { String::new() } else { text.into() } }
+    }
+
+    /// Tells it to who asks.
+    ///
+    /// # Errors
+    /// When standard output cannot be written.
+    pub fn tell(&self, as_json: bool) -> Result<(), Failure> {
+        match as_json {
+            true => answer_in_json(&self.record),
+            false if self.text.is_empty() => Ok(()),
+            false => answer(&self.text),
+        }
+    }
+}
 
 /// Writes an answer; what would steer a terminal is shown, not sent. A reader that has gone away (`fret plan case.toml | head -1`) is no failure.
 pub fn answer(text: &str) -> Result<(), Failure> {

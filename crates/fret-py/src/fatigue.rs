@@ -231,7 +231,7 @@ pub fn crack<'py>(
         let judged = cycle.judged(&points)?;
         let severe = judged.at_surface.iter().find(|found| found.parameter == Parameter::SmithWatsonTopper);
         let Some(severe) = severe else { return Err(NoCrack::NoTension) };
-        let start = CrackStart::of(severe, cycle.grid.is_line())?;
+        let start = CrackStart::of(severe, cycle.grid.dimension())?;
         let setting = (&cycle.grid, cycle.periodic);
         let path =
             crack_path(&cycle.half_space, setting, &start, law.final_length, &cycle.surfaces, || true)?;

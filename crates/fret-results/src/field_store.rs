@@ -202,8 +202,8 @@ impl FieldStore {
         let centre = |length: usize| ("length", "cell centre", length);
         let number = ("", "number of the increment, from 0", self.steps.len());
         let axes = [("x", centre(nx)), ("y", centre(ny)), ("increment", number)];
-        let is_line = self.grid.is_line();
-        let axes = axes.into_iter().filter(|(name, _)| !(is_line && *name == "y"));
+        let of_place = self.grid.dimension().names();
+        let axes = axes.into_iter().filter(|(name, _)| *name == "increment" || of_place.contains(name));
         let axes = axes.map(|(name, (unit, long_name, length))| {
             let attributes = json!({ "units": self.unit(unit), "long_name": long_name });
             (name, axis_metadata(name, length, self.is_checked, &attributes))
@@ -247,8 +247,7 @@ impl FieldStore {
     }
 
     fn write_centres(&self) -> Result<(), Unwritten> {
-        let axes: &[&str] = if self.grid.is_line() { &["x"] } else { &["x", "y"] };
-        axes.iter().enumerate().try_for_each(|(axis, name)| {
+        self.grid.dimension().names().iter().enumerate().try_for_each(|(axis, name)| {
             let centres = self.grid.centres(axis);
             let bytes: Vec<u8> = centres.iter().flat_map(|centre| centre.to_le_bytes()).collect();
             self.write_axis(name, &bytes)

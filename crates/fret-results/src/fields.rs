@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use fret_core::history::{self, FIELDS};
-use fret_core::model::SurfaceGrid;
+use fret_core::model::{Dimension, SurfaceGrid};
 use serde_json::Value;
 
 use crate::error::ResultsError;
@@ -73,7 +73,10 @@ impl Fields {
         let store = Store { path, is_solved: record.is_solved() };
         let x = floats(&store.axis("x", Some(nx))?);
         // a line contact is the same all along y
-        let y = if grid.is_line() { vec![0.0] } else { floats(&store.axis("y", Some(ny))?) };
+        let y = match grid.dimension() {
+            Dimension::Plane => floats(&store.axis("y", Some(ny))?),
+            Dimension::Line => vec![0.0],
+        };
         if x.iter().chain(&y).any(|centre| !centre.is_finite()) {
             return Err(ResultsError::unusable(path, "holds centres of cells that are no numbers"));
         }
@@ -104,16 +107,16 @@ impl Fields {
         [self.x.len(), self.y.len()]
     }
 
-    /// Whether they are those of a line contact, the same all along y.
-    pub fn is_line(&self) -> bool {
-        self.y.len() == 1
+    /// The grid.
+    pub fn grid(&self) -> &SurfaceGrid {
+        &self.grid
     }
 
     /// Sides of a cell [length]; of a line contact, the width of a strip twice.
     pub fn spacing(&self) -> [f64; 2] {
         let of = |centres: &[f64]| if let [a, b, ..] = centres[..] { b - a } else { 1.0 };
         let dx = of(&self.x);
-        [dx, if self.is_line() { dx } else { of(&self.y) }]
+        self.grid.dimension().along(|axis| of([&self.x, &self.y][axis]), dx)
     }
 
     /// Whether an array is there.

@@ -27,9 +27,7 @@ impl Lines {
     /// The head, with units where the case declares some.
     fn head(self, case: &Case) -> String {
         fn names<R>(columns: &[Column<R>], case: &Case) -> String {
-            let is_line = case.is_line();
-            let head =
-                |column: &Column<R>| Units::heading(case.units.as_ref(), column.name, column.unit, is_line);
+            let head = |column: &Column<R>| case.heading(column.name, column.unit);
             columns.iter().map(head).collect::<Vec<_>>().join(",") + "\n"
         }
         match self {

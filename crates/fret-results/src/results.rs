@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use fret_core::case::{CaseRecord, Side, StressRequest, Units};
 use fret_core::history::{CycleRecord, FIELDS, RunningCondition, running_condition};
 use fret_core::machine::memory;
-use fret_core::model::SurfaceGrid;
+use fret_core::model::{Dimension, SurfaceGrid};
 use fret_core::plan::{Coupling, PlanRecord};
 use fret_core::subsurface::EvenStress;
 use fret_core::subsurface::fatigue::LayerConstants;
@@ -111,7 +111,7 @@ impl Results {
 
     /// The head of a column of a field, with its unit where the case declares units.
     pub fn field_heading(&self, name: &str) -> String {
-        Units::heading(self.units(), name, kind_of_field(name), false)
+        Units::heading(self.units(), name, kind_of_field(name), Dimension::Plane)
     }
 
     /// First and last increment of the last whole cycle, from 0, and whether it is one; of a last stage without cycles, or without a whole

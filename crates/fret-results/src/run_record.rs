@@ -178,7 +178,7 @@ impl RunRecord {
             },
             question_fnv1a64: Some(question(plan)),
             start: start.cloned(),
-            line_contact: plan.grid.is_line(),
+            line_contact: plan.grid.dimension().into(),
             plan: plan.to_json(),
             warnings: plausibility::of_plan(plan),
             status: "running".to_owned(),

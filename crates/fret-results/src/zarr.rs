@@ -3,7 +3,7 @@
 //! Every chunk ends with a checksum, by Zarr's own codec `crc32c`; stores of the first builds have none, and are read as well.
 //! Format: <https://zarr-specs.readthedocs.io/en/latest/v3/core/index.html>.
 
-use fret_core::model::SurfaceGrid;
+use fret_core::model::{Dimension, SurfaceGrid};
 use serde_json::{Value, json};
 
 /// Bytes of a checksum.
@@ -21,7 +21,7 @@ pub fn bytes_of(grid: &SurfaceGrid, name: &str) -> usize {
 
 /// Where a field of the increment at a place along `increment` lies in the store.
 pub fn chunk(grid: &SurfaceGrid, name: &str, place: usize) -> String {
-    format!("{name}/c/{place}/0{}", if grid.is_line() { "" } else { "/0" })
+    format!("{name}/c/{place}{}", "/0".repeat(grid.dimension().axes().len()))
 }
 
 /// The metadata of a field over so many increments.
@@ -34,12 +34,13 @@ pub fn field_metadata(
 ) -> Value {
     let [nx, ny] = grid.cells();
     let mut codecs = codecs(is_checked);
-    let (shape, chunk, names) = if grid.is_line() {
-        (json!([steps, nx]), json!([1, nx]), json!(["increment", "x"]))
-    } else {
-        // Seen with y before x, stored with x before y; of a line contact there is no y.
-        codecs.insert(0, json!({ "name": "transpose", "configuration": { "order": [0, 2, 1] } }));
-        (json!([steps, ny, nx]), json!([1, ny, nx]), json!(["increment", "y", "x"]))
+    let (shape, chunk, names) = match grid.dimension() {
+        Dimension::Plane => {
+            // Seen with y before x, stored with x before y; of a line contact there is no y.
+            codecs.insert(0, json!({ "name": "transpose", "configuration": { "order": [0, 2, 1] } }));
+            (json!([steps, ny, nx]), json!([1, ny, nx]), json!(["increment", "y", "x"]))
+        }
+        Dimension::Line => (json!([steps, nx]), json!([1, nx]), json!(["increment", "x"])),
     };
     json!({
         "zarr_format": 3,

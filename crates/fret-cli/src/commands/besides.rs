@@ -6,8 +6,6 @@ use std::path::Path;
 
 use fret_core::history::History;
 use fret_core::plan::Plan;
-use serde::de::DeserializeOwned;
-use serde_json::Value;
 
 use super::{heat, stress};
 use crate::embedded::{Solved, save};
@@ -30,9 +28,8 @@ pub fn besides(folder: &Path, point: &Point, plan: &Plan, history: &History) -> 
             }
             other => other,
         };
-        let stress =
-            stress::answered(folder).map_err(nameless)?.map(|answer| read(answer.record)).transpose()?;
-        let heat = heat::answered(folder).map_err(nameless)?.map(|(record, _)| read(record)).transpose()?;
+        let stress = stress::answered(folder).map_err(nameless)?.map(|(record, _)| record);
+        let heat = heat::answered(folder).map_err(nameless)?.map(|(record, _)| record);
         Ok(Besides { stress, heat })
     });
     removed(folder)?;
@@ -49,8 +46,4 @@ fn removed(folder: &Path) -> Result<(), Failure> {
         fs::remove_dir_all(folder).map_err(Unwritten::at(folder))?;
     }
     Ok(())
-}
-
-fn read<T: DeserializeOwned>(record: Value) -> Result<T, Failure> {
-    serde_json::from_value(record).map_err(|error| Failure::Defect(format!("a record of its own: {error}")))
 }

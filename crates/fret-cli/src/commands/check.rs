@@ -8,28 +8,25 @@ use serde_json::json;
 use crate::commands::plan::{cells, cells_in_contact_radius, expected_contact, stages, warnings};
 use crate::failure::Failure;
 use crate::figures::counted;
-use crate::terminal;
+use crate::terminal::Answer;
 use fret_results::{CaseFile, planned_from};
 
 /// Judges a case.
-pub fn check(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failure> {
+pub fn check(path: &Path, from: Option<&str>) -> Result<Answer, Failure> {
     let case_file = CaseFile::asked(path)?;
     let plan = planned_from(&case_file, from)?;
-    if as_json {
-        let answer = json!({
-            "status": "good",
-            "case": case_file.name(),
-            "cells": plan.grid.cells(),
-            "size": plan.grid.size(),
-            "cells_in_contact_radius": cells_in_contact_radius(&plan),
-            "increments": plan.increments,
-            "warnings": plausibility::of_plan(&plan),
-        });
-        return terminal::answer_in_json(&answer);
-    }
+    let record = json!({
+        "status": "good",
+        "case": case_file.name(),
+        "cells": plan.grid.cells(),
+        "size": plan.grid.size(),
+        "cells_in_contact_radius": cells_in_contact_radius(&plan),
+        "increments": plan.increments,
+        "warnings": plausibility::of_plan(&plan),
+    });
     let warnings = warnings(&plan);
     let but = if warnings.is_empty() { "" } else { ", but" };
-    terminal::answer(&format!(
+    let text = format!(
         "{}: good{but}\n  {}\n{}  {}: {}{}",
         case_file.name(),
         cells(&plan),
@@ -37,5 +34,6 @@ pub fn check(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failu
         counted(plan.increments, "increment"),
         stages(&plan),
         warnings,
-    ))
+    );
+    Ok(Answer::new(record, text, false))
 }

@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use fret_core::case::Units;
+use fret_core::model::Dimension;
 use fret_core::scar::{Asked, Comparison, Line, Pair, compare, read};
 use ndarray::Array2;
 use serde_json::{Value, json};
@@ -19,7 +20,7 @@ use crate::drawing::scale::Label;
 use crate::failure::Failure;
 use crate::figures::{figure, figure_in};
 use crate::identify::name_of;
-use crate::terminal;
+use crate::terminal::Answer;
 use fret_results::Results;
 use fret_results::{folder_below, write_whole};
 
@@ -27,7 +28,7 @@ use fret_results::{folder_below, write_whole};
 const OF_BOTH: &str = "worn_depth";
 
 /// Compares the last kept wear depth of a run with a measured line.
-pub fn compare_scar(arguments: &CompareScarArguments, as_json: bool) -> Result<(), Failure> {
+pub fn compare_scar(arguments: &CompareScarArguments) -> Result<Answer, Failure> {
     let asked = Asked {
         columns: pairs("--columns", &arguments.columns, "position=x,height=z")?,
         units: pairs("--units", &arguments.units, "position=um,height=nm")?,
@@ -38,25 +39,20 @@ pub fn compare_scar(arguments: &CompareScarArguments, as_json: bool) -> Result<(
         .map_err(|refused| Failure::Call(refused.what, refused.help))?;
     let worn = Worn::of(&run, arguments.body.as_deref())?;
     let axis = usize::from(arguments.along == "y");
-    if axis == 1 && run.grid().is_line() {
+    if !run.grid().dimension().axes().contains(&axis) {
         let what = "a line contact has the same wear depth all along y".to_owned();
         return Err(Failure::Call(what, "--along x".to_owned()));
     }
     let found = compare(&worn.section(&run, axis), run.grid().spacing()[axis], measured)
         .map_err(|refused| Failure::Call(refused.what, refused.help))?;
     let place = folder_below(&arguments.folder, Path::new("scar"))?;
-    let answer = Answer { run: &run, worn: &worn, along: &arguments.along, found: &found };
+    let answer = BesideMeasured { run: &run, worn: &worn, along: &arguments.along, found: &found };
     let record = answer.record();
     write_whole(&place.join("scar.json"), format!("{record:#}\n").as_bytes())?;
     write_whole(&place.join("scar.csv"), answer.csv().as_bytes())?;
     write_whole(&place.join("scar.svg"), answer.picture().as_bytes())?;
-    if as_json {
-        return terminal::answer_in_json(&record);
-    }
-    if !arguments.quiet {
-        terminal::answer(&format!("{}\nwritten to {}", answer.text(), place.display()))?;
-    }
-    Ok(())
+    let text = format!("{}\nwritten to {}", answer.text(), place.display());
+    Ok(Answer::new(record, text, arguments.quiet))
 }
 
 /// The last kept wear depth of a run.
@@ -110,14 +106,14 @@ impl Worn {
 }
 
 /// What is told.
-struct Answer<'a> {
+struct BesideMeasured<'a> {
     run: &'a Results,
     worn: &'a Worn,
     along: &'a str,
     found: &'a Comparison,
 }
 
-impl Answer<'_> {
+impl BesideMeasured<'_> {
     fn record(&self) -> Value {
         let found = self.found;
         let numbers: serde_json::Map<String, Value> = found
@@ -152,7 +148,7 @@ impl Answer<'_> {
     }
 
     fn csv(&self) -> String {
-        let head = |name: &str| Units::heading(self.run.units(), name, "length", false);
+        let head = |name: &str| Units::heading(self.run.units(), name, "length", Dimension::Plane);
         let mut text =
             format!("{},{},{}\n", head(self.along), head("computed_depth"), head("measured_depth"));
         for ((x, computed), measured) in
@@ -196,7 +192,7 @@ impl Answer<'_> {
             let _ = writeln!(text, "  {name:<8} {computed:<18} {measured:<18} {difference}");
         }
         let length = |value: f64| figure_in(units, value, "length");
-        let kind_of_volume = if self.run.grid().is_line() { "length^2" } else { "length^3" };
+        let kind_of_volume = self.run.grid().dimension().kind("length^3");
         let _ = writeln!(text, "  volume   {}", figure_in(units, self.volume(), kind_of_volume));
         let _ = writeln!(text, "  root mean square of the difference: {}", length(found.difference));
         let _ = writeln!(

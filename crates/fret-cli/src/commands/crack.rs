@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use fret_core::case::Units;
-use fret_core::model::HalfSpace;
+use fret_core::model::{Dimension, HalfSpace};
 use fret_core::subsurface::crack::{CrackCourse, CrackFate, crack_course};
 use fret_core::subsurface::crack_path::{CrackStart, NoCrack, crack_path};
 use fret_core::subsurface::fatigue::{LayerConstants, Parameter};
@@ -42,7 +42,7 @@ impl Crack<'_> {
         let severe = at_surface.iter().find(|found| found.parameter == Parameter::SmithWatsonTopper);
         let Some(severe) = severe else { return Ok(None) };
         let grid = self.run.grid();
-        let followed = CrackStart::of(severe, grid.is_line()).and_then(|start| {
+        let followed = CrackStart::of(severe, grid.dimension()).and_then(|start| {
             let setting = (grid, self.run.case().periodic);
             let goes_on = || !interrupt::is_asked();
             let path = crack_path(self.half_space, setting, &start, constants.final_length, cycle, goes_on)?;
@@ -101,10 +101,10 @@ impl Crack<'_> {
             figure_in(units, y, "length"),
             figure(degrees)
         );
-        let intensity = |name: &str| Units::heading(units, name, "pressure length^1/2", false);
+        let intensity = |name: &str| Units::heading(units, name, "pressure length^1/2", Dimension::Plane);
         let [k1_max, k1_range, k2_range, threshold] =
             ["k1_max", "k1_range", "k2_range", "threshold"].map(intensity);
-        let length = Units::heading(units, "length", "length", false);
+        let length = Units::heading(units, "length", "length", Dimension::Plane);
         let mut csv = format!("{length},{k1_max},{k1_range},{k2_range},{threshold},cycles\n");
         for at in &course.lengths {
             let cycles = at.cycles.map_or(String::new(), |cycles| format!("{cycles:e}"));

@@ -4,7 +4,7 @@ use fret_core::history::Concern;
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
-use crate::terminal;
+use crate::terminal::Answer;
 
 /// Where all of them stand in the manual.
 const PAGE: &str = "docs/reference/messages.md#warnings";
@@ -13,8 +13,8 @@ const PAGE: &str = "docs/reference/messages.md#warnings";
 const MOST_NEAR: usize = 4;
 
 /// Tells what is known of a warning, or lists all.
-pub fn explain(name: Option<&str>, as_json: bool) -> Result<(), Failure> {
-    let Some(name) = name else { return list(as_json) };
+pub fn explain(name: Option<&str>) -> Result<Answer, Failure> {
+    let Some(name) = name else { return Ok(list()) };
     let asked = plain(name);
     // by its name, or by the words that its message begins with, if those are of one alone
     let begins = |concern: &Concern| !asked.is_empty() && plain(concern.quantity()).starts_with(&asked);
@@ -33,27 +33,22 @@ pub fn explain(name: Option<&str>, as_json: bool) -> Result<(), Failure> {
         };
         return Err(Failure::Call(format!("no warning is called {name:?}"), help));
     };
-    if as_json {
-        return terminal::answer_in_json(&of(concern));
-    }
     let side = if concern.warns_below() { "at least" } else { "at most" };
-    terminal::answer(&format!(
+    let text = format!(
         "{}\n\n  what      {}\n  bound     {side} {}\n  meaning   {}\n  to do     {}\n  manual    {PAGE}",
         concern.name(),
         concern.quantity(),
         concern.bound(),
         concern.consequence(),
         concern.help()
-    ))
+    );
+    Ok(Answer::new(of(concern), text, false))
 }
 
-fn list(as_json: bool) -> Result<(), Failure> {
-    if as_json {
-        let all: Vec<Value> = Concern::ALL.into_iter().map(of).collect();
-        return terminal::answer_in_json(&json!({ "warnings": all }));
-    }
-    let lines = Concern::ALL.map(|concern| format!("  {:<35}{}", concern.name(), concern.quantity()));
-    terminal::answer(&format!("warnings, `fret explain NAME` tells more:\n{}", lines.join("\n")))
+fn list() -> Answer {
+    let lines = Concern::ALL.map(|concern| format!("\n  {:<35}{}", concern.name(), concern.quantity()));
+    let text = format!("warnings, `fret explain NAME` tells more:{}", lines.concat());
+    Answer::new(json!({ "warnings": Concern::ALL.map(of) }), text, false)
 }
 
 fn of(concern: Concern) -> Value {

@@ -8,7 +8,7 @@ use crate::arguments::ExportArguments;
 use crate::export::{csv, npz, vtk};
 use crate::failure::Failure;
 use crate::figures::counted;
-use crate::terminal;
+use crate::terminal::Answer;
 use fret_results::Results;
 
 type Writing = fn(&Results, &Path) -> Result<Vec<PathBuf>, Failure>;
@@ -17,7 +17,7 @@ type Writing = fn(&Results, &Path) -> Result<Vec<PathBuf>, Failure>;
 const NPZ: &str = "export.npz";
 
 /// Writes what is asked for, and tells which files were written.
-pub fn export(arguments: &ExportArguments, as_json: bool) -> Result<(), Failure> {
+pub fn export(arguments: &ExportArguments) -> Result<Answer, Failure> {
     let forms: [(bool, &str, Writing); 3] = [
         (arguments.npz, NPZ, npz::write),
         (arguments.csv, "csv", csv::write),
@@ -39,26 +39,21 @@ pub fn export(arguments: &ExportArguments, as_json: bool) -> Result<(), Failure>
         files.extend(write(&results, &path)?);
     }
     let steps = counted(results.fields.steps.len(), "kept increment");
-    if as_json {
-        let answer = json!({
-            "status": "exported",
-            "files": files,
-            "increments": results.table.rows(),
-            "kept_increments": results.fields.steps,
-            "unfinished": results.unfinished(),
-        });
-        return terminal::answer_in_json(&answer);
-    }
+    let record = json!({
+        "status": "exported",
+        "files": files,
+        "increments": results.table.rows(),
+        "kept_increments": results.fields.steps,
+        "unfinished": results.unfinished(),
+    });
     let first = files.first().map_or(String::new(), |file| file.display().to_string());
     let more = match files.len() {
         0 | 1 => String::new(),
         count => format!(" and {} more", count - 1),
     };
-    terminal::answer(&format!(
-        "{first}{more}: {} of history, {steps}",
-        counted(results.table.rows(), "increment")
-    ))?;
-    results.unfinished().map_or(Ok(()), |why| terminal::answer(&why))
+    let rows = counted(results.table.rows(), "increment");
+    let unfinished = results.unfinished().map_or(String::new(), |why| format!("\n{why}"));
+    Ok(Answer::new(record, format!("{first}{more}: {rows} of history, {steps}{unfinished}"), false))
 }
 
 /// Refuses a place that holds something an export would not have written.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use fret_core::case::Units;
-use fret_core::model::HalfSpace;
+use fret_core::model::{Dimension, HalfSpace};
 use fret_core::subsurface::coating_fracture::Film;
 use fret_core::subsurface::fatigue::{LayerConstants, Parameter};
 use fret_core::subsurface::film_stress::{FilmCrack, FilmStress};
@@ -229,7 +229,7 @@ impl<'a> Fatigue<'a> {
 
     /// Lines of `fatigue.csv`: the largest value of every parameter in every layer.
     fn by_layer(&self, judged: &Judged) -> String {
-        let head = |name: &str| Units::heading(self.run.units(), name, "length", false);
+        let head = |name: &str| Units::heading(self.run.units(), name, "length", Dimension::Plane);
         let [x, y, depth] = ["x", "y", "depth"].map(head);
         let mut text = format!(
             "parameter,layer,largest,{x},{y},{depth},cycles,factor_of_safety,largest_cell,largest_cell_cycles,normal_x,normal_y,normal_z,point_method,line_method\n"

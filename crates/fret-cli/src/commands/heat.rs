@@ -13,10 +13,10 @@ use fret_core::conduction::{
 };
 use fret_core::history::CycleRecord;
 use fret_core::machine::memory;
-use fret_core::model::Conductor;
+use fret_core::model::{Conductor, Dimension};
 use fret_core::plan::memory_of_stress;
 use ndarray::Array2;
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::heat_record::{AtPlace, HeatRecord, Increments, Resistance, ResistanceRecord, RiseRecord};
 use crate::arguments::HeatArguments;
@@ -24,14 +24,14 @@ use crate::export::npz;
 use crate::failure::Failure;
 use crate::figures::{duration, figure_in};
 use crate::interrupt;
-use crate::terminal;
+use crate::terminal::{self, Answer};
 use crate::threads;
 use fret_results::CaseFile;
 use fret_results::Results;
 use fret_results::{folder_below, write_whole};
 
 /// Computes temperatures and resistances for a result folder.
-pub fn heat(arguments: &HeatArguments, as_json: bool) -> Result<(), Failure> {
+pub fn heat(arguments: &HeatArguments) -> Result<Answer, Failure> {
     interrupt::listen();
     let folder = &arguments.folder;
     let mut run = Results::read(folder)?;
@@ -47,20 +47,16 @@ pub fn heat(arguments: &HeatArguments, as_json: bool) -> Result<(), Failure> {
     }
     let pool = threads::pool(threads::asked(arguments.threads))?;
     let every = arguments.every.map(|every| every as usize);
-    let (record, table) = pool.install(|| computed(folder, &run, every))?;
-    if as_json {
-        terminal::answer_in_json(&record)
-    } else if arguments.quiet {
-        Ok(())
-    } else {
-        terminal::answer(&table)
-    }
+    let (record, text) = pool.install(|| computed(folder, &run, every))?;
+    Ok(Answer::new(json!(record), text, arguments.quiet))
 }
 
 /// Temperatures and resistances of a run that has just ended; nothing of what has none: a line contact, a run without kept fields.
-pub fn answered(folder: &Path) -> Result<Option<(Value, String)>, Failure> {
+pub fn answered(folder: &Path) -> Result<Option<(HeatRecord, String)>, Failure> {
     let run = Results::read(folder)?;
-    let has_none = run.case().conduction.is_none() || run.grid().is_line() || run.fields.reached.is_empty();
+    let has_none = run.case().conduction.is_none()
+        || run.grid().dimension() == Dimension::Line
+        || run.fields.reached.is_empty();
     if has_none { Ok(None) } else { computed(folder, &run, None).map(Some) }
 }
 
@@ -83,7 +79,7 @@ fn both(pair: &[Option<Conductor>; 2]) -> Option<[Option<&Conductor>; 2]> {
 }
 
 /// What is written, and what a person reads.
-fn computed(folder: &Path, run: &Results, every: Option<usize>) -> Result<(Value, String), Failure> {
+fn computed(folder: &Path, run: &Results, every: Option<usize>) -> Result<(HeatRecord, String), Failure> {
     let started = Instant::now();
     let ([first, last], _) = run.last_cycle();
     memory::check(memory_of_stress(run.grid().len(), last + 1 - first))?;
@@ -106,8 +102,7 @@ fn computed(folder: &Path, run: &Results, every: Option<usize>) -> Result<(Value
         resistance: resistances(folder, run, every)?,
         wall_s: started.elapsed().as_secs_f64(),
     };
-    let written = json!(record);
-    write_whole(&place.join("heat.json"), format!("{written:#}\n").as_bytes())?;
+    write_whole(&place.join("heat.json"), format!("{:#}\n", json!(record)).as_bytes())?;
     let mut table = record.unfinished.as_ref().map_or(String::new(), |why| format!("{why}\n"));
     for [name, value, of] in record.lines(|value, kind| figure_in(run.units(), value, kind)) {
         let _ = if of.is_empty() {
@@ -117,7 +112,7 @@ fn computed(folder: &Path, run: &Results, every: Option<usize>) -> Result<(Value
         };
     }
     let _ = write!(table, "\nwritten to {} in {}", place.display(), duration(record.wall_s));
-    Ok((written, table))
+    Ok((record, table))
 }
 
 /// Temperature rise over the last cycle, the cycle, and the fraction of its energy that the kept fields account for.

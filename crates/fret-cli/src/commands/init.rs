@@ -8,11 +8,11 @@ use serde_json::json;
 
 use crate::failure::{Failure, Unwritten};
 use crate::templates::{TEMPLATES, Template};
-use crate::terminal;
+use crate::terminal::Answer;
 
 /// Writes a template, or tells which there are.
-pub fn init(name: Option<&str>, out: Option<&Path>, as_json: bool) -> Result<(), Failure> {
-    let Some(name) = name else { return list(as_json) };
+pub fn init(name: Option<&str>, out: Option<&Path>) -> Result<Answer, Failure> {
+    let Some(name) = name else { return Ok(list()) };
     if out == Some(Path::new("-")) {
         let help = "name a file; a template may have other files beside it";
         return Err(Failure::Call("a case to begin with is written to a file".to_owned(), help.to_owned()));
@@ -23,27 +23,18 @@ pub fn init(name: Option<&str>, out: Option<&Path>, as_json: bool) -> Result<(),
     })?;
     let path = out.map_or_else(|| PathBuf::from(format!("{name}.toml")), Path::to_owned);
     let written = write(template, &path)?;
-    if as_json {
-        return terminal::answer_in_json(&json!({ "status": "written", "template": name, "files": written }));
-    }
+    let record = json!({ "status": "written", "template": name, "files": written });
     let shown = path.display().to_string();
     let path = if shown.contains(char::is_whitespace) { format!("\"{shown}\"") } else { shown };
-    terminal::answer(&format!(
-        "written: {}\nnext: fret check {path}; fret plan {path}; fret run {path}",
-        written.join(", ")
-    ))
+    let next = format!("next: fret check {path}; fret plan {path}; fret run {path}");
+    Ok(Answer::new(record, format!("written: {}\n{next}", written.join(", ")), false))
 }
 
-fn list(as_json: bool) -> Result<(), Failure> {
-    if as_json {
-        let all = TEMPLATES.iter().map(|template| json!({ "name": template.name, "about": template.about }));
-        return terminal::answer_in_json(&json!({ "templates": all.collect::<Vec<_>>() }));
-    }
-    let lines = TEMPLATES.iter().map(|template| format!("  {:<14}{}", template.name, template.about));
-    terminal::answer(&format!(
-        "cases to begin with, `fret init NAME` writes one:\n{}",
-        lines.collect::<Vec<_>>().join("\n")
-    ))
+fn list() -> Answer {
+    let all = TEMPLATES.iter().map(|template| json!({ "name": template.name, "about": template.about }));
+    let lines = TEMPLATES.iter().map(|template| format!("\n  {:<14}{}", template.name, template.about));
+    let text = "cases to begin with, `fret init NAME` writes one:".to_owned() + &lines.collect::<String>();
+    Answer::new(json!({ "templates": all.collect::<Vec<_>>() }), text, false)
 }
 
 /// Writes the case and what it names beside it; nothing that exists is replaced.

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use fret_core::case::{Side, StressRequest};
 use fret_core::machine::memory;
+use fret_core::model::Dimension;
 use fret_core::plan::memory_of_stress;
 use fret_core::subsurface::LoadedSurface;
 
@@ -60,16 +61,16 @@ pub fn reach(run: &Results, surfaces: &[LoadedSurface]) -> f64 {
         .map(|surface| surface.pressure.iter().filter(|pressure| **pressure > 0.0).count())
         .max()
         .unwrap_or(0);
-    let [width, length] = run.grid().size();
+    let ([width, length], dimension) = (run.grid().size(), run.grid().dimension());
     if run.case().periodic {
         return 0.5 * width.max(length);
     }
-    if run.grid().is_line() {
-        let half_width = 0.5 * most as f64 * run.grid().spacing()[0];
-        return if half_width > 0.0 { 3.0 * half_width } else { width };
+    let radius = dimension.radius(most as f64 * run.grid().cell_area());
+    match dimension {
+        _ if radius > 0.0 => 3.0 * radius,
+        Dimension::Plane => width.min(length),
+        Dimension::Line => width,
     }
-    let radius = (most as f64 * run.grid().cell_area() / std::f64::consts::PI).sqrt();
-    if radius > 0.0 { 3.0 * radius } else { width.min(length) }
 }
 
 /// The call was interrupted.

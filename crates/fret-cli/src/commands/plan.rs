@@ -4,7 +4,7 @@ use std::path::Path;
 
 use fret_core::history::Warning;
 use fret_core::machine::memory::{self, MemoryError, amount};
-use fret_core::model::Body;
+use fret_core::model::{Body, Dimension};
 use fret_core::plan::{Coupling, Plan};
 use fret_core::run::plausibility;
 use fret_core::study::{Expectation, expectation};
@@ -14,7 +14,7 @@ use serde_json::json;
 use crate::failure::Failure;
 use crate::figures::{LONGEST_TITLE, counted, duration, figure, shortened};
 use crate::summary::warning_line;
-use crate::terminal;
+use crate::terminal::Answer;
 use crate::threads;
 use fret_results::{CaseFile, planned_from};
 
@@ -23,7 +23,7 @@ const STAGE_LETTERS: usize = 60;
 
 /// A plan with what it will take.
 #[derive(Serialize)]
-struct Answer<'a> {
+struct Record<'a> {
     #[serde(flatten)]
     plan: &'a Plan,
     status: &'static str,
@@ -36,7 +36,7 @@ struct Answer<'a> {
 }
 
 /// Plans a case and tells the plan.
-pub fn plan(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failure> {
+pub fn plan(path: &Path, from: Option<&str>) -> Result<Answer, Failure> {
     let plan = planned_from(&CaseFile::asked(path)?, from)?;
     let lacking = memory::check(plan.memory_bytes).err();
     // A run that cannot be begun takes no time, and a part of it may be too much.
@@ -44,19 +44,18 @@ pub fn plan(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failur
         None => Some(threads::pool(threads::asked(None))?.install(|| expectation(&plan))),
         Some(_) => None,
     };
-    if as_json {
-        return terminal::answer_in_json(&json!(Answer {
-            status: "planned",
-            cells_in_contact_radius: cells_in_contact_radius(&plan),
-            increments_expected: expected.map(|expected| expected.increments),
-            convolutions_expected: expected.map(|expected| expected.convolutions),
-            seconds_expected: expected.map(|expected| expected.seconds),
-            memory_lacking: lacking.map(|error| format!("this {error}")),
-            warnings: plausibility::of_plan(&plan),
-            plan: &plan,
-        }));
-    }
-    terminal::answer(&table(&plan, expected.as_ref(), lacking.as_ref()))
+    let text = table(&plan, expected.as_ref(), lacking.as_ref());
+    let record = Record {
+        status: "planned",
+        cells_in_contact_radius: cells_in_contact_radius(&plan),
+        increments_expected: expected.map(|expected| expected.increments),
+        convolutions_expected: expected.map(|expected| expected.convolutions),
+        seconds_expected: expected.map(|expected| expected.seconds),
+        memory_lacking: lacking.map(|error| format!("this {error}")),
+        warnings: plausibility::of_plan(&plan),
+        plan: &plan,
+    };
+    Ok(Answer::new(json!(record), text, false))
 }
 
 fn table(plan: &Plan, expected: Option<&Expectation>, lacking: Option<&MemoryError>) -> String {
@@ -141,7 +140,7 @@ pub fn cells(plan: &Plan) -> String {
     let unit = plan.case.units.as_ref().map_or_else(String::new, |units| format!(" {}", units.length));
     let figure = |value: f64| format!("{}{unit}", figure(value));
     let ([nx, ny], [dx, dy], [width, depth]) = (plan.grid.cells(), plan.grid.spacing(), plan.grid.size());
-    if plan.grid.is_line() {
+    if plan.grid.dimension() == Dimension::Line {
         let datum = plan.datum.map_or_else(String::new, |datum| {
             format!("; approach and shift are relative to {} below the load", figure(datum))
         });
@@ -159,8 +158,8 @@ pub fn cells(plan: &Plan) -> String {
 /// Cells in the contact radius that is expected under the heaviest load: in the shorter one of an ellipse, in the half-width of a line
 /// contact. `None` where only the run can tell.
 pub fn cells_in_contact_radius(plan: &Plan) -> Option<f64> {
-    let ([x, y], [dx, dy]) = (plan.expected?.half_widths, plan.grid.spacing());
-    Some(if plan.grid.is_line() { x / dx } else { (x / dx).min(y / dy) })
+    let (half_widths, spacing) = (plan.expected?.half_widths, plan.grid.spacing());
+    plan.grid.dimension().axes().map(|axis| half_widths[axis] / spacing[axis]).reduce(f64::min)
 }
 
 /// The expected contact in words.
@@ -169,10 +168,10 @@ pub fn expected_contact(plan: &Plan) -> Option<String> {
     let [x, y] = plan.expected?.half_widths;
     let unit = plan.case.units.as_ref().map_or_else(String::new, |units| format!(" {}", units.length));
     let is_round = (x - y).abs() <= 0.1 * x.max(y); // they are known to a twentieth
-    let what = match (plan.grid.is_line(), is_round) {
-        (true, _) => format!("half-width, about {}{unit}", two_digits(x)),
-        (false, true) => format!("contact radius, about {}{unit}", two_digits((x * y).sqrt())),
-        (false, false) => {
+    let what = match (plan.grid.dimension(), is_round) {
+        (Dimension::Line, _) => format!("half-width, about {}{unit}", two_digits(x)),
+        (Dimension::Plane, true) => format!("contact radius, about {}{unit}", two_digits((x * y).sqrt())),
+        (Dimension::Plane, false) => {
             format!("shorter half-axis of the contact, about {} x {}{unit}", two_digits(x), two_digits(y))
         }
     };

@@ -7,7 +7,7 @@ use serde_json::json;
 use crate::failure::Failure;
 use crate::report::{page, study, sweep};
 use crate::sweep::RECORD as SWEEP;
-use crate::terminal;
+use crate::terminal::Answer;
 use fret_results::Results;
 use fret_results::write_whole;
 
@@ -47,7 +47,7 @@ fn page_of(folder: &Path) -> Result<Page, Failure> {
 }
 
 /// Writes the page and tells where it is.
-pub fn report(folder: &Path, out: Option<&Path>, as_json: bool) -> Result<(), Failure> {
+pub fn report(folder: &Path, out: Option<&Path>) -> Result<Answer, Failure> {
     let Page { text, counted: (what, count), unfinished } = page_of(folder)?;
     let path = out.map_or_else(|| folder.join("report.html"), Path::to_owned);
     let is_page = path.extension().is_some_and(|extension| extension == "html" || extension == "htm");
@@ -61,10 +61,7 @@ pub fn report(folder: &Path, out: Option<&Path>, as_json: bool) -> Result<(), Fa
     }
     write_whole(&path, text.as_bytes())?;
     let shown = path.display().to_string();
-    if as_json {
-        let answer = json!({ "status": "reported", "file": shown, what: count, "unfinished": unfinished });
-        return terminal::answer_in_json(&answer);
-    }
-    terminal::answer(&shown)?;
-    unfinished.map_or(Ok(()), |why| terminal::answer(&why))
+    let record = json!({ "status": "reported", "file": shown, what: count, "unfinished": unfinished });
+    let text = [shown].into_iter().chain(unfinished).collect::<Vec<_>>().join("\n");
+    Ok(Answer::new(record, text, false))
 }

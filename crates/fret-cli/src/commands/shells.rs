@@ -10,7 +10,7 @@ use serde_json::json;
 
 use crate::arguments::Arguments;
 use crate::failure::{Failure, Unwritten};
-use crate::terminal;
+use crate::terminal::Answer;
 
 /// Writes the completions for a shell to standard output.
 pub fn completions(shell: Shell) -> Result<(), Failure> {
@@ -19,12 +19,14 @@ pub fn completions(shell: Shell) -> Result<(), Failure> {
     to_standard_output(&script)
 }
 
-/// Writes the page of `man` of the command to standard output, or into a folder those of all its verbs.
-pub fn manual(out: Option<&Path>, as_json: bool) -> Result<(), Failure> {
+/// Writes the page of `man` of the command to standard output.
+pub fn page_of_all() -> Result<(), Failure> {
+    to_standard_output(&page(Arguments::command(), "fret", Path::new("standard output"))?)
+}
+
+/// Writes the pages of `man` of the command and of all its verbs into a folder.
+pub fn pages(folder: &Path) -> Result<Answer, Failure> {
     let command = Arguments::command();
-    let Some(folder) = out else {
-        return to_standard_output(&page(command, "fret", Path::new("standard output"))?);
-    };
     fs::create_dir_all(folder).map_err(Unwritten::at(folder))?;
     let mut written = Vec::new();
     let verbs = command.get_subcommands().filter(|verb| !verb.is_hide_set());
@@ -36,10 +38,8 @@ pub fn manual(out: Option<&Path>, as_json: bool) -> Result<(), Failure> {
         fs::write(&path, page(command, &name, &path)?).map_err(Unwritten::at(&path))?;
         written.push(path.display().to_string());
     }
-    if as_json {
-        return terminal::answer_in_json(&json!({ "status": "written", "files": written }));
-    }
-    terminal::answer(&format!("{} pages in {}", written.len(), folder.display()))
+    let text = format!("{} pages in {}", written.len(), folder.display());
+    Ok(Answer::new(json!({ "status": "written", "files": written }), text, false))
 }
 
 fn page(command: clap::Command, title: &str, path: &Path) -> Result<Vec<u8>, Failure> {

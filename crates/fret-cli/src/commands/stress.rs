@@ -7,19 +7,20 @@ use std::path::Path;
 use std::time::Instant;
 
 use fret_core::case::{Side, StressRequest};
-use fret_core::model::{Body, HalfSpace};
+use fret_core::model::{Body, Dimension, HalfSpace};
 use fret_core::subsurface::{
     DepthPoint, LoadedSurface, StressField, Tractions, automatic_depths, depth_points, displacements, survey,
 };
-use serde_json::Value;
+use serde_json::json;
 
 use super::loaded_surfaces::{loaded_surfaces, reach, stopped};
-use super::stress_tables::{Answer, StressTables};
+use super::stress_record::StressRecord;
+use super::stress_tables::StressTables;
 use crate::arguments::StressArguments;
 use crate::export::volume::{Field, Volume};
 use crate::failure::{Failure, Unwritten};
 use crate::interrupt;
-use crate::terminal;
+use crate::terminal::{self, Answer};
 use crate::threads;
 use fret_results::Results;
 use fret_results::folder_below;
@@ -42,15 +43,7 @@ const DISPLACEMENTS: [Field; 3] =
     [("displacement_x", "length"), ("displacement_y", "length"), ("displacement_z", "length")];
 
 /// Computes stresses for a result folder.
-pub fn stress(arguments: &StressArguments, as_json: bool) -> Result<(), Failure> {
-    let record = stress_of(arguments, as_json)?;
-    if as_json {
-        terminal::answer_in_json(&record)?;
-    }
-    Ok(())
-}
-
-fn stress_of(arguments: &StressArguments, as_json: bool) -> Result<Value, Failure> {
+pub fn stress(arguments: &StressArguments) -> Result<Answer, Failure> {
     interrupt::listen();
     let run = Results::read(&arguments.folder)?;
     if run.case().wear.as_ref().is_some_and(|wear| wear.thinning_tolerance.is_some()) {
@@ -60,11 +53,8 @@ fn stress_of(arguments: &StressArguments, as_json: bool) -> Result<Value, Failur
     }
     let request = requested(arguments, &run);
     let pool = threads::pool(threads::asked(arguments.threads))?;
-    let answer = pool.install(|| computed(&arguments.folder, &run, &request))?;
-    if !arguments.quiet && !as_json {
-        terminal::answer(&answer.table)?;
-    }
-    Ok(answer.record)
+    let (record, text) = pool.install(|| computed(&arguments.folder, &run, &request))?;
+    Ok(Answer::new(json!(record), text, arguments.quiet))
 }
 
 /// What the call asks for, or else the case.
@@ -92,7 +82,11 @@ fn requested(arguments: &StressArguments, run: &Results) -> StressRequest {
     request
 }
 
-fn computed(folder: &Path, run: &Results, request: &StressRequest) -> Result<Answer, Failure> {
+fn computed(
+    folder: &Path,
+    run: &Results,
+    request: &StressRequest,
+) -> Result<(StressRecord, String), Failure> {
     let started = Instant::now();
     let Body::Elastic(half_space) = request.body.of(&run.case().bodies) else {
         let other = if request.body == Side::Lower { "upper" } else { "lower" };
@@ -110,10 +104,13 @@ fn computed(folder: &Path, run: &Results, request: &StressRequest) -> Result<Ans
     let place = folder_below(folder, Path::new("stress"))?;
     let constants = run.fatigue_constants(request);
     let mut tables = StressTables::new(run, request, (half_space, &constants), &points, &surfaces);
+    // those of a line contact need a datum
+    let has_displacements = run.grid().dimension() == Dimension::Plane;
     let mut volume = if request.volume {
         let depths: Vec<f64> = points.iter().map(|point| point.depth).collect();
         let name = format!("volume-{:05}.vtr", surfaces.last().map_or(0, |surface| surface.increment));
-        let fields = [&STRESSES[..], if run.grid().is_line() { &[] } else { &DISPLACEMENTS }].concat();
+        let displacements: &[_] = if has_displacements { &DISPLACEMENTS } else { &[] };
+        let fields = [&STRESSES[..], displacements].concat();
         Some(Volume::create(&place.join(name), run.grid(), &depths, &fields, run.units())?)
     } else {
         None
@@ -143,7 +140,7 @@ fn computed(folder: &Path, run: &Results, request: &StressRequest) -> Result<Ans
         return Err(stopped(folder));
     }
     if let Some(mut volume) = volume {
-        if let (false, Some(surface)) = (run.grid().is_line(), surfaces.last()) {
+        if let (true, Some(surface)) = (has_displacements, surfaces.last()) {
             displace(&mut volume, (run, half_space), &points, surface)?;
         }
         volume.close()?;
@@ -181,7 +178,7 @@ fn fill(volume: &mut Volume, point: usize, field: &StressField) -> Result<(), Un
 }
 
 /// Stresses of a run that has just ended, as its case asks; nothing where it does not.
-pub fn answered(folder: &Path) -> Result<Option<Answer>, Failure> {
+pub fn answered(folder: &Path) -> Result<Option<(StressRecord, String)>, Failure> {
     let run = Results::read(folder)?;
     let Some(request) = run.case().stress.clone() else { return Ok(None) };
     computed(folder, &run, &request).map(Some)
@@ -190,7 +187,7 @@ pub fn answered(folder: &Path) -> Result<Option<Answer>, Failure> {
 /// The same, told to a person.
 pub fn after_run(folder: &Path, quiet: bool) -> Result<(), Failure> {
     match answered(folder)? {
-        Some(answer) if !quiet => terminal::answer(&answer.table),
+        Some((_, text)) if !quiet => terminal::answer(&text),
         _ => Ok(()),
     }
 }

@@ -4,11 +4,11 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use fret_core::case::{StressRequest, Units};
-use fret_core::model::{Base, HalfSpace};
+use fret_core::model::{Base, Dimension, HalfSpace};
 use fret_core::subsurface::fatigue::LayerConstants;
 use fret_core::subsurface::largest::look;
 use fret_core::subsurface::{DepthPoint, Largest, LoadedSurface, Measure, StressField};
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::fatigue::{Fatigue, Finished, Picture};
 use super::stress_record::{LargestRecord, StressRecord};
@@ -21,12 +21,6 @@ use fret_results::write_whole;
 
 /// More sections than this are not drawn.
 const MOST_SECTIONS: usize = 12;
-
-/// What is told of the stresses.
-pub struct Answer {
-    pub record: Value,
-    pub table: String,
-}
 
 /// What is noted on the way, and written at the end.
 pub struct StressTables<'a> {
@@ -122,7 +116,7 @@ impl<'a> StressTables<'a> {
         grid.centre(axis, found.cell[axis]) + found.off[axis] * grid.spacing()[axis]
     }
 
-    pub fn written(mut self, place: &Path, wall_s: f64) -> Result<Answer, Failure> {
+    pub fn written(mut self, place: &Path, wall_s: f64) -> Result<(StressRecord, String), Failure> {
         let largest = self.largest.iter().map(|found| LargestRecord {
             measure: found.measure.name().to_owned(),
             value: found.value,
@@ -134,7 +128,7 @@ impl<'a> StressTables<'a> {
         });
         let largest = largest.collect();
         let fatigue = self.fatigue.take().map_or_else(|| Ok(Finished::default()), Fatigue::finished)?;
-        let record = json!(StressRecord {
+        let record = StressRecord {
             status: "computed".to_owned(),
             unfinished: self.run.unfinished(),
             body: self.request.body.name().to_owned(),
@@ -146,15 +140,15 @@ impl<'a> StressTables<'a> {
             fatigue: fatigue.fatigue,
             coating: fatigue.coating,
             wall_s,
-        });
-        write_whole(&place.join("stress.json"), format!("{record:#}\n").as_bytes())?;
+        };
+        write_whole(&place.join("stress.json"), format!("{:#}\n", json!(record)).as_bytes())?;
         write_whole(&place.join("depths.csv"), self.by_depth.as_bytes())?;
         for (name, content) in &fatigue.files {
             write_whole(&place.join(name), content.as_bytes())?;
         }
         self.draw(place, &self.run.grid().centres(0).to_vec(), &fatigue.pictures)?;
         let table = self.table(place, &fatigue.table, wall_s);
-        Ok(Answer { record, table })
+        Ok((record, table))
     }
 
     fn layer_name(&self, layer: usize) -> String {
@@ -227,7 +221,7 @@ impl<'a> StressTables<'a> {
                 counted(self.points.len(), "depth"),
                 counted(self.surfaces.len(), "increment"),
             );
-        let head = |name: &str, kind: &str| Units::heading(self.run.units(), name, kind, false);
+        let head = |name: &str, kind: &str| Units::heading(self.run.units(), name, kind, Dimension::Plane);
         let [value, x, y, depth] =
             [("value", "pressure"), ("x", "length"), ("y", "length"), ("depth", "length")]
                 .map(|(name, kind)| head(name, kind));
@@ -264,7 +258,7 @@ impl<'a> StressTables<'a> {
 
 /// The head of `depths.csv`.
 fn head_by_depth(units: Option<&Units>) -> String {
-    let head = |name: &str, kind: &str| Units::heading(units, name, kind, false);
+    let head = |name: &str, kind: &str| Units::heading(units, name, kind, Dimension::Plane);
     let measures = Measure::ALL.map(|measure| head(measure.name(), kind_of_stress(measure.name())));
     format!("increment,{},layer,{}\n", head("depth", "length"), measures.join(","))
 }

@@ -7,8 +7,8 @@ use fret_core::machine::memory;
 use fret_core::plan::Plan;
 use fret_core::run::{Observer, RunError};
 use fret_core::study::{
-    Advice, ClosedForm, Convergence, Kind, Level, Line, Place, Quantity, Reference, RefinementStudy,
-    Resolutions, pressure_is_unbounded, solved_level,
+    ClosedForm, Level, Line, Place, Quantity, Reference, RefinementStudy, Resolutions, pressure_is_unbounded,
+    solved_level,
 };
 use serde_json::{Value, json};
 
@@ -19,8 +19,9 @@ use crate::figures::{counted, duration};
 use crate::interrupt::{self, Listener};
 use crate::report::study::STUDY;
 use crate::study::levels::{LEVELS, Levels};
+use crate::study::record::StudyRecord;
 use crate::study::{picture, reference, table, words};
-use crate::terminal;
+use crate::terminal::{self, Answer};
 use crate::threads;
 use fret_results::CaseFile;
 use fret_results::{folder_for_answers, write_whole};
@@ -33,7 +34,7 @@ const QUICK: f64 = 0.3;
 const TIMES: usize = 3;
 
 /// Studies a case.
-pub fn study(arguments: &StudyArguments, as_json: bool) -> Result<(), Failure> {
+pub fn study(arguments: &StudyArguments) -> Result<Answer, Failure> {
     let case_file = CaseFile::asked(&arguments.case)?;
     let plan = case_file.planned()?;
     let question = Question::new(arguments, &plan)?;
@@ -63,15 +64,13 @@ pub fn study(arguments: &StudyArguments, as_json: bool) -> Result<(), Failure> {
     write_whole(&folder.join("study.svg"), picture::picture(&title, study, lines).as_bytes())?;
     write_whole(&folder.join(STUDY), format!("{text}\n").as_bytes())?;
     kept.remove();
-    if as_json {
-        return terminal::answer_in_json(&studied.record);
-    }
     let Studied { measured, choice, reference, .. } = &studied;
-    terminal::answer(&format!(
+    let text = format!(
         "{title}\n{measured}\n\n{}\n\n{choice}\n\nresults    {}",
         table::table(study, lines, reference),
         folder.display()
-    ))
+    );
+    Ok(Answer::new(studied.record, text, false))
 }
 
 /// What is to be studied: resolutions that fit into memory, and what they are compared with.
@@ -139,7 +138,7 @@ pub fn studied(
     } else {
         words::NO_ERRORS.to_owned()
     };
-    let record = answer(title, &reference, (&study, &lines), (&advice, &choice), &unsolved);
+    let record = json!(StudyRecord::new(title, &reference, (&study, &lines), (&advice, &choice), &unsolved));
     Ok(Studied { record, study, reference, lines, measured, choice })
 }
 
@@ -283,41 +282,4 @@ fn timed(plan: &Plan, observer: &mut dyn Observer) -> Result<Level, Failure> {
         }
     }
     Ok(best)
-}
-
-/// The whole answer for programs.
-fn answer(
-    title: &str,
-    reference: &Reference,
-    (study, lines): (&RefinementStudy, &[Line]),
-    (advice, choice): (&[Advice], &str),
-    unsolved: &Unsolved,
-) -> Value {
-    let sources = Quantity::ALL
-        .into_iter()
-        .map(|quantity| (quantity.name().to_owned(), json!(reference.source(quantity))));
-    let references =
-        Quantity::ALL.into_iter().map(|quantity| (quantity.name().to_owned(), json!(reference.of(quantity))));
-    // only where the study says something of it: a closed form or numbers from elsewhere do not ask how it converges
-    let convergence = Quantity::ALL.into_iter().map(|quantity| {
-        let told =
-            reference.source(quantity).is_some() || reference.convergence(quantity) == Convergence::NoLimit;
-        (quantity.name().to_owned(), json!(told.then(|| reference.convergence(quantity))))
-    });
-    json!({
-        "status": "studied",
-        "title": title,
-        "closed_form": reference.form().map(ClosedForm::name),
-        "measured_by": Value::Object(sources.collect()),
-        "references": Value::Object(references.collect()),
-        "convergence": Value::Object(convergence.collect()),
-        "kinds": Kind::ALL,
-        "lines": table::to_json(study, lines),
-        "unsolved": unsolved.iter().map(|(place, why)| {
-            let variation = study.resolutions().at(*place);
-            json!({ "cells": variation.cells, "increments": variation.increments, "message": why })
-        }).collect::<Vec<_>>(),
-        "advice": advice,
-        "choice": choice,
-    })
 }

@@ -270,15 +270,16 @@ impl<'a> Board<'a> {
         Ok(())
     }
 
-    /// The plan of a point; where there is no memory to plan it in, that of the points at work is waited for.
-    fn plan(&self, point: &Point) -> Result<Plan, CaseError> {
+    /// Asks again while there is no memory for it: that of the points at work is waited for.
+    fn with_memory<T, E>(
+        &self,
+        lacks_memory: impl Fn(&E) -> bool,
+        ask: impl Fn() -> Result<T, E>,
+    ) -> Result<T, E> {
         let mut is_alone = false;
         loop {
-            match point
-                .case_file
-                .planned_leaving_out(LeaveOut::ALL, self.origin.as_ref().map(|origin| &origin.start))
-            {
-                Err(error) if error.lacks_memory() && !is_alone => {
+            match ask() {
+                Err(error) if lacks_memory(&error) && !is_alone => {
                     let at_work = self.at_work.lock().unwrap_or_else(PoisonError::into_inner);
                     is_alone = *at_work == 0;
                     if !is_alone {
@@ -288,6 +289,14 @@ impl<'a> Board<'a> {
                 outcome => return outcome,
             }
         }
+    }
+
+    /// The plan of a point.
+    fn plan(&self, point: &Point) -> Result<Plan, CaseError> {
+        let start = self.origin.as_ref().map(|origin| &origin.start);
+        self.with_memory(CaseError::lacks_memory, || {
+            point.case_file.planned_leaving_out(LeaveOut::ALL, start)
+        })
     }
 
     /// Memory for a point, beside the points that are at work: waited for while any of them is.
@@ -306,7 +315,7 @@ impl<'a> Board<'a> {
         }
     }
 
-    /// What the case of a point asks for besides; where there is no memory for it, that of the points at work is waited for.
+    /// What the case of a point asks for besides.
     fn besides(
         &self,
         folder: &Path,
@@ -314,19 +323,7 @@ impl<'a> Board<'a> {
         plan: &Plan,
         history: &History,
     ) -> Result<Besides, Failure> {
-        let mut is_alone = false;
-        loop {
-            match besides(folder, point, plan, history) {
-                Err(failure) if lacks_memory(&failure) && !is_alone => {
-                    let at_work = self.at_work.lock().unwrap_or_else(PoisonError::into_inner);
-                    is_alone = *at_work == 0;
-                    if !is_alone {
-                        drop(self.freed.wait(at_work).unwrap_or_else(PoisonError::into_inner));
-                    }
-                }
-                outcome => return outcome,
-            }
-        }
+        self.with_memory(lacks_memory, || besides(folder, point, plan, history))
     }
 
     fn tell(&self, number: usize, answer: Answer) {

@@ -4,6 +4,7 @@
 use std::time::Instant;
 
 use fret_core::history::{History, KeptFields, StepRecord};
+use fret_core::model::Dimension;
 use fret_core::plan::Plan;
 use fret_core::run::{InCommon, RunError, Simulation};
 use maud::{Markup, html};
@@ -151,7 +152,7 @@ struct View<'a> {
     moves: bool,
     /// Which of them is shown.
     moment: usize,
-    is_line: bool,
+    dimension: Dimension,
 }
 
 impl<'a> View<'a> {
@@ -167,7 +168,7 @@ impl<'a> View<'a> {
         // the first of equal ones
         let largest = (0..steps.len()).rev().max_by(|a, b| load(a).total_cmp(&load(b))).unwrap_or(0);
         let moment = moment.unwrap_or(largest).min(steps.len().saturating_sub(1));
-        Self { plan, history, steps, path, moves, moment, is_line: plan.grid.is_line() }
+        Self { plan, history, steps, path, moves, moment, dimension: plan.grid.dimension() }
     }
 
     fn record(&self) -> Option<&'a StepRecord> {
@@ -179,7 +180,7 @@ impl<'a> View<'a> {
     }
 
     fn unit(&self, kind: &str) -> Option<String> {
-        unit_of(self.plan.case.units.as_ref(), kind, self.is_line)
+        unit_of(self.plan.case.units.as_ref(), kind, self.dimension)
     }
 
     fn label(&self, name: &str, kind: &str) -> Label {
@@ -210,7 +211,7 @@ impl<'a> View<'a> {
             });
             add("zones", html! { (self.map("stick and slip", &window, &image, None)?) (legend()) });
         }
-        if !self.is_line {
+        if self.dimension == Dimension::Plane {
             let most = pressure.iter().copied().fold(0.0, f64::max);
             let image = Raster::of_values(window.size, [0.0, most], |column, row| {
                 let value = pressure[window.cell(column, row)];
@@ -287,7 +288,10 @@ impl<'a> View<'a> {
     }
 
     fn map(&self, what: &str, window: &Window, image: &Raster, most: Option<f64>) -> Result<Markup, Failure> {
-        let y = if self.is_line { Label::plain("") } else { self.label("y", "length") };
+        let y = match self.dimension {
+            Dimension::Plane => self.label("y", "length"),
+            Dimension::Line => Label::plain(""),
+        };
         let map = Map {
             what: what.to_owned(),
             width: WIDTH,
@@ -310,12 +314,11 @@ impl<'a> View<'a> {
         let mut add =
             |id: &str, name: &str, value: String| told.push([id.to_owned(), name.to_owned(), value]);
         add("p0", "max pressure", self.number(record.max_pressure, "pressure"));
-        if self.is_line {
-            add("a", "contact half-width", self.number(0.5 * record.contact_area, "length"));
-        } else {
-            let radius = (record.contact_area / std::f64::consts::PI).sqrt();
-            add("a", "contact radius", self.number(radius, "length"));
-        }
+        let name = match self.dimension {
+            Dimension::Plane => "contact radius",
+            Dimension::Line => "contact half-width",
+        };
+        add("a", name, self.number(self.dimension.radius(record.contact_area), "length"));
         add("approach", "approach", self.number(record.approach, "length"));
         if self.plan.case.friction.is_frictionless() {
             return told;

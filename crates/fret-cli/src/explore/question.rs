@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use fret_core::case::Units;
+use fret_core::model::Dimension;
 use fret_core::plan::Plan;
 use serde::Deserialize;
 use toml::{Table, Value};
@@ -52,7 +53,7 @@ pub struct Question {
     /// Units that the case declares.
     pub units: Option<Units>,
     /// Whether it is a line contact, with loads per length.
-    pub is_line: bool,
+    pub dimension: Dimension,
     /// Sides of the grid that the numbers of the case ask for [length], where grids follow the contact.
     size: Option<[f64; 2]>,
 }
@@ -97,10 +98,10 @@ impl Question {
                 sliders.len() + more
             ));
         }
-        let (units, is_line) = (plan.case.units.clone(), plan.grid.is_line());
+        let (units, dimension) = (plan.case.units.clone(), plan.grid.dimension());
         let mut question = Self {
             units,
-            is_line,
+            dimension,
             path: file.path.clone(),
             beside: file.beside.clone(),
             own,
@@ -162,7 +163,10 @@ impl Question {
                 Value::Float(STEP.powf(steps) * side)
             })
             .collect();
-        let sides = if plan.grid.is_line() { sides[0].clone() } else { Value::Array(sides) };
+        let sides = match plan.grid.dimension() {
+            Dimension::Plane => Value::Array(sides),
+            Dimension::Line => sides[0].clone(),
+        };
         put(&mut sized, "grid.size", &sides).map_err(Failure::Defect)?;
         let file = self.file(&sized);
         // where the step is too far for the shape of the body, the size is the plan's own
@@ -215,7 +219,7 @@ fn coarsen(case: &mut Table, plan: &Plan, most: i64, notes: &mut Vec<String>) {
     let Some(grid) = case.get_mut("grid").and_then(Value::as_table_mut) else { return };
     let [nx, ny] = plan.grid.cells().map(|cells| cells as i64);
     let is_given = !plan.case.profile.heights.is_empty() || plan.case.friction.is_map();
-    let cells = if plan.grid.is_line() {
+    let cells = if plan.grid.dimension() == Dimension::Line {
         let cells = nx.min(LINE * most);
         if cells == nx {
             return;

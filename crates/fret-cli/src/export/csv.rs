@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::{folder, written};
 use crate::failure::{Failure, Unwritten};
+use fret_core::model::Dimension;
 use fret_results::{Field, Results};
 
 /// Writes the results as CSV into a folder; the files.
@@ -21,13 +22,15 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
         let columns: Vec<Field> =
             fields.names.iter().map(|name| fields.field(name, position)).collect::<Result<_, _>>()?;
         written(&file, |writer| {
-            let is_line = fields.is_line();
-            let columns_of_place: &[&str] = if is_line { &["x"] } else { &["x", "y"] };
-            let heads = columns_of_place.iter().chain(&fields.names).map(|name| results.field_heading(name));
+            let dimension = fields.grid().dimension();
+            let heads = dimension.names().iter().chain(&fields.names).map(|name| results.field_heading(name));
             let mut row = heads.collect::<Vec<_>>().join(",") + "\n";
             for (i, x) in fields.x.iter().enumerate() {
                 for (j, y) in fields.y.iter().enumerate() {
-                    let _ = if is_line { write!(row, "{x:?}") } else { write!(row, "{x:?},{y:?}") };
+                    let _ = match dimension {
+                        Dimension::Plane => write!(row, "{x:?},{y:?}"),
+                        Dimension::Line => write!(row, "{x:?}"),
+                    };
                     for (name, column) in fields.names.iter().zip(&columns) {
                         let value = column.at(i, j);
                         let _ =

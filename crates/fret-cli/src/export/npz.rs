@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use fret_core::case::Units;
 use fret_core::history::{STEP_COLUMNS, Value};
+use fret_core::model::Dimension;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
@@ -25,11 +26,11 @@ fn counts(name: &str) -> bool {
 
 /// The unit of every array that has one, as JSON in a single text.
 fn units_in_json(results: &Results, units: &Units) -> String {
-    let is_line = results.fields.is_line();
+    let dimension = results.grid().dimension();
     let fields = ["x", "y"].iter().chain(&results.fields.names).map(|name| (*name, kind_of_field(name)));
     let columns = STEP_COLUMNS.iter().map(|column| (column.name, column.unit));
     let named = fields.chain(columns).filter_map(|(name, kind)| {
-        let heading = Units::heading(Some(units), name, kind, is_line);
+        let heading = Units::heading(Some(units), name, kind, dimension);
         let unit = heading.strip_prefix(name)?.strip_prefix(" [")?.strip_suffix(']')?;
         Some((name.to_owned(), serde_json::Value::from(unit)))
     });
@@ -44,14 +45,14 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
         let mut archive = Archive { zip: ZipWriter::new(UntilFailed::new(writer)), path };
         let steps: Vec<u8> = fields.steps.iter().flat_map(|&step| (step as i64).to_le_bytes()).collect();
         archive.array("x", "<f8", &[nx], &bytes(&fields.x))?;
-        if !fields.is_line() {
+        let dimension = fields.grid().dimension();
+        if dimension == Dimension::Plane {
             archive.array("y", "<f8", &[ny], &bytes(&fields.y))?;
         }
         archive.array("kept_increment", "<i8", &[fields.steps.len()], &steps)?;
         for name in &fields.names {
             let (kind, width) = if *name == "zone" { ("|u1", 1) } else { ("<f8", 8) };
-            let shape = [fields.steps.len(), nx, ny];
-            let shape = if fields.is_line() { &shape[..2] } else { &shape[..] };
+            let shape = &[fields.steps.len(), nx, ny][..=dimension.axes().len()];
             archive.begin(name, kind, shape, width * shape.iter().product::<usize>())?;
             for position in 0..fields.steps.len() {
                 let values = fields.field(name, position)?.values;

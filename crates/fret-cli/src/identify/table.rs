@@ -2,6 +2,7 @@
 
 use fret_core::case::Units;
 use fret_core::identify::{Cycle, Identification};
+use fret_core::model::Dimension;
 
 /// A column.
 pub struct Column {
@@ -44,7 +45,8 @@ impl Column {
 /// The rows as CSV; heads with units, where there are any; empty where a cycle was skipped.
 pub fn table(found: &Identification) -> String {
     let units = found.has_units.then_some(&found.units);
-    let head = COLUMNS.each_ref().map(|column| Units::heading(units, column.name, column.unit, false));
+    let head =
+        COLUMNS.each_ref().map(|column| Units::heading(units, column.name, column.unit, Dimension::Plane));
     let mut text = head.join(",") + "\n";
     for cycle in &found.cycles {
         let cell = |column: &Column| {

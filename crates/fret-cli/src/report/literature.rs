@@ -1,6 +1,6 @@
 //! What to cite: the works whose methods and formulas stand behind this very page.
 
-use fret_core::model::{Body, Control};
+use fret_core::model::{Body, Control, Dimension};
 use fret_core::study::{PartialSlip, Pressed};
 use maud::{Markup, html};
 
@@ -42,7 +42,7 @@ pub fn chapter(view: &Overview<'_>) -> Markup {
     let periodic = case.periodic;
     let pressed = view.normal_form.and_then(|form| form.under(Control::Force(1.0)));
     let partial_slip = view.tangential_form.is_some();
-    let is_line = view.results.fields.is_line();
+    let is_point = view.dimension() == Dimension::Plane;
     let is_stretched = view
         .tangential_form
         .as_ref()
@@ -59,7 +59,7 @@ pub fn chapter(view: &Overview<'_>) -> Markup {
         (partial_slip, CATTANEO),
         (partial_slip, MINDLIN),
         (is_stretched, NOWELL),
-        (partial_slip && !is_line && !view.cycles().is_empty(), DERESIEWICZ),
+        (partial_slip && is_point && !view.cycles().is_empty(), DERESIEWICZ),
         (pressed.is_some(), JOHNSON),
     ];
     let record = &view.results.record;

@@ -1,7 +1,7 @@
 //! A run seen as a whole: its units, which way it was loaded, which increments are worth showing, what theory has to say about it.
 
-use fret_core::case::Units;
 use fret_core::history::CycleRecord;
+use fret_core::model::Dimension;
 use fret_core::plan::Coupling;
 use fret_core::study::{Loaded, NormalForm, TangentialForm};
 
@@ -74,9 +74,13 @@ impl<'a> Overview<'a> {
 
     /// The unit of a kind of quantity such as `force x length`, where the case declares units.
     pub fn unit(&self, kind: &str) -> Option<String> {
-        let is_line = self.results.fields.is_line();
-        let unit = self.results.units()?.of(if is_line { Units::per_length(kind) } else { kind });
+        let unit = self.results.units()?.of(self.dimension().kind(kind));
         Some(unit.replace("^2", "²").replace("^3", "³"))
+    }
+
+    /// Whether the contact has two axes or is a line contact.
+    pub fn dimension(&self) -> Dimension {
+        self.results.grid().dimension()
     }
 
     /// The name of an axis with its unit.

@@ -1,17 +1,20 @@
 //! A study of refinement in one page: which resolution to choose, the error of every quantity over the cells and the increments, and over
 //! the time that a level took. Read back from `study.json`.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
+use fret_core::study::{Kind, Source};
 use maud::{Markup, html};
-use serde_json::Value;
 
 use super::html::{chapter, figure_of, side_by_side, table};
 use super::whole_page;
 use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::scale::Label;
 use crate::failure::Failure;
+use crate::study::record::{LevelRecord, LineRecord, StudyRecord, UnsolvedRecord};
+use crate::study::table::{increments, kind_name};
 
 /// The answer of a study, which marks its folder.
 pub const STUDY: &str = "study.json";
@@ -26,72 +29,61 @@ pub fn page(folder: &Path) -> Result<(String, usize), Failure> {
         Failure::Call(format!("{}: {why}", path.display()), "run `fret study` again".to_owned())
     };
     let text = fs::read(&path).map_err(|error| refuse(error.to_string()))?;
-    let study: Value =
+    let study: StudyRecord =
         serde_json::from_slice(&text).map_err(|error| refuse(format!("cannot be read: {error}")))?;
-    let lines: Vec<&Value> = study["lines"].as_array().into_iter().flatten().collect();
-    let levels = lines.iter().map(|line| levels(line).len()).sum();
-    let title = format!("Study: {}", study["title"].as_str().unwrap_or("a case"));
+    let levels = study.lines.iter().map(|line| line.levels.len()).sum();
+    let title = format!("Study: {}", study.title);
     let content = html! {
         header {
             h1 { (title) }
             p class="lead" { "fretting " (env!("CARGO_PKG_VERSION")) " · " (levels) " levels" }
         }
         (chapter("Which resolution to choose", &html! {
-            @for line in study["choice"].as_str().unwrap_or_default().lines() { p { (line) } }
+            @for line in study.choice.lines() { p { (line) } }
             (measured_by(&study))
         }))
-        @for line in &lines { (refined(line)) }
-        (unsolved(&study))
+        @for line in &study.lines { (refined(line)) }
+        (unsolved(&study.unsolved))
     };
     Ok((whole_page(&title, &content), levels))
 }
 
-fn levels(line: &Value) -> Vec<&Value> {
-    line["levels"].as_array().into_iter().flatten().collect()
-}
-
 /// What the error of each quantity is measured by.
-fn measured_by(study: &Value) -> Markup {
-    let rows: Vec<Vec<String>> = study["measured_by"]
-        .as_object()
-        .into_iter()
-        .flatten()
-        .filter_map(|(name, by)| {
-            // value and tolerance at the end of every stage: the last one
-            let reference = study["references"][name].as_array()?.last()?[0].as_f64()?;
-            let by = study["closed_form"].as_str().filter(|_| by == "closed_form").map_or_else(
-                || by.as_str().unwrap_or("–").replace('_', " "),
-                |form| format!("closed form: {form}"),
-            );
-            Some(vec![name.replace('_', " "), super::html::number(reference), by])
-        })
-        .collect();
+fn measured_by(study: &StudyRecord) -> Markup {
+    let row = |(name, source): (&String, &Option<Source>)| {
+        let [reference, _] = study.references.get(name)?.last().copied()??;
+        let by = match (source, &study.closed_form) {
+            (Some(Source::ClosedForm), Some(form)) => format!("closed form: {form}"),
+            (Some(Source::ClosedForm), None) => "closed form".to_owned(),
+            (Some(Source::Given), _) => "given".to_owned(),
+            (Some(Source::Limit), _) => "limit".to_owned(),
+            (Some(Source::Finest), _) => "finest".to_owned(),
+            (None, _) => "–".to_owned(),
+        };
+        Some(vec![name.replace('_', " "), super::html::number(reference), by])
+    };
+    let rows: Vec<Vec<String>> = study.measured_by.iter().filter_map(row).collect();
     html! { @if !rows.is_empty() { (table(&["quantity", "reference at the end", "errors against"], &rows)) } }
 }
 
 /// A line of levels: charts of its errors, and its table.
-fn refined(line: &Value) -> Markup {
-    let levels = levels(line);
-    let kind = line["refined"].as_str().unwrap_or_default();
-    let resolution = |level: &Value| match kind {
-        "increments" => largest(&level["increments"]),
-        "tolerance" => level["tolerance"].as_f64().unwrap_or(f64::NAN),
-        _ => level["cells"][0].as_f64().unwrap_or(f64::NAN),
+fn refined(line: &LineRecord) -> Markup {
+    let LineRecord { refined, levels } = line;
+    let resolution = |level: &LevelRecord| match refined {
+        Kind::Increments => level.increments.iter().copied().max().unwrap_or(0) as f64,
+        Kind::Tolerance => level.tolerance,
+        Kind::Cells | Kind::Together => level.cells[0] as f64,
     };
-    let names: Vec<String> = levels
-        .iter()
-        .flat_map(|level| level["errors"].as_object().into_iter().flatten())
-        .filter(|(_, error)| error.as_f64().is_some())
-        .map(|(name, _)| name.clone())
-        .fold(Vec::new(), |mut names, name| {
-            if !names.contains(&name) {
-                names.push(name);
-            }
-            names
-        });
-    let over = |of: &dyn Fn(&Value) -> f64| -> Vec<Curve> {
-        let curve = |(place, name): (usize, &String)| {
-            let at = |level: &&Value| Some([of(level), level["errors"][name].as_f64()?]);
+    let known = levels.iter().flat_map(|level| &level.errors).filter(|(_, error)| error.is_some());
+    let mut names: Vec<&str> = Vec::new();
+    for (name, _) in known {
+        if !names.contains(&name.as_str()) {
+            names.push(name);
+        }
+    }
+    let over = |of: &dyn Fn(&LevelRecord) -> f64| -> Vec<Curve> {
+        let curve = |(place, name): (usize, &&str)| {
+            let at = |level: &LevelRecord| Some([of(level), level.errors.get(*name).copied()??]);
             let mut points: Vec<[f64; 2]> = levels.iter().filter_map(at).collect();
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             let dots = Curve {
@@ -105,82 +97,57 @@ fn refined(line: &Value) -> Markup {
         };
         names.iter().enumerate().flat_map(curve).collect()
     };
-    let chart = |label: Label, curves: Vec<Curve>| Chart {
-        logarithmic: true,
-        ..Chart::new("relative error of the levels", [label, Label::plain("relative error")], curves)
+    let figure = |axis: Label, of: &dyn Fn(&LevelRecord) -> f64, caption: &str| {
+        let axes = [axis, Label::plain("relative error")];
+        let chart = Chart::new("relative error of the levels", axes, over(of));
+        figure_of(&Chart { logarithmic: true, ..chart }.in_page(), caption)
     };
-    let what = match kind {
-        "increments" => "increments per stage or cycle",
-        "tolerance" => "tolerance",
-        _ => "cells along x",
+    let what = match refined {
+        Kind::Increments => "increments per stage or cycle",
+        Kind::Tolerance => "tolerance",
+        Kind::Cells | Kind::Together => "cells along x",
     };
-    let seconds = |level: &Value| level["wall_s"].as_f64().unwrap_or(f64::NAN);
+    let time = Label { name: "time".to_owned(), unit: Some("s".to_owned()) };
     let figures = [
-        figure_of(
-            &chart(Label::plain(what), over(&resolution)).in_page(),
-            "Error of every quantity over the resolution.",
-        ),
-        figure_of(
-            &chart(Label { name: "time".to_owned(), unit: Some("s".to_owned()) }, over(&seconds)).in_page(),
-            "The same over the time that the level took.",
-        ),
+        figure(Label::plain(what), &resolution, "Error of every quantity over the resolution."),
+        figure(time, &|level| level.wall_s, "The same over the time that the level took."),
     ];
     let body = html! {
         @if !names.is_empty() && levels.len() > 1 { (side_by_side(&figures)) }
-        (rows(&levels, &names))
+        (rows(levels, &names))
     };
-    chapter(&format!("Refined: {}", kind.replace("together", "cells and increments together")), &body)
+    chapter(&format!("Refined: {}", kind_name(*refined)), &body)
 }
 
-fn rows(levels: &[&Value], names: &[String]) -> Markup {
-    let mut head =
-        vec!["cells".to_owned(), "increments".to_owned(), "tolerance".to_owned(), "time [s]".to_owned()];
-    for name in names {
-        head.extend([name.replace('_', " "), "order".to_owned()]);
-    }
-    let rows: Vec<Vec<String>> = levels
-        .iter()
-        .map(|level| {
-            let mut row = vec![
-                format!("{} x {}", level["cells"][0], level["cells"][1]),
-                increments(&level["increments"]),
-                level["tolerance"].as_f64().map_or(String::new(), |value| format!("{value:.0e}")),
-                level["wall_s"].as_f64().map_or(String::new(), |value| format!("{value:.3}")),
-            ];
-            for name in names {
-                row.push(
-                    level["errors"][name].as_f64().map_or("–".to_owned(), |error| format!("{error:.1e}")),
-                );
-                row.push(
-                    level["orders"][name].as_f64().map_or("–".to_owned(), |order| format!("{order:.1}")),
-                );
-            }
-            row
-        })
-        .collect();
+fn rows(levels: &[LevelRecord], names: &[&str]) -> Markup {
+    let mut head = ["cells", "increments", "tolerance", "time [s]"].map(str::to_owned).to_vec();
+    head.extend(names.iter().flat_map(|name| [name.replace('_', " "), "order".to_owned()]));
+    let row = |level: &LevelRecord| {
+        let [nx, ny] = level.cells;
+        let mut row = vec![
+            format!("{nx} x {ny}"),
+            increments(&level.increments),
+            format!("{:.0e}", level.tolerance),
+            format!("{:.3}", level.wall_s),
+        ];
+        let known = |values: &BTreeMap<String, Option<f64>>, name: &str| values.get(name).copied().flatten();
+        for name in names {
+            row.push(known(&level.errors, name).map_or("–".to_owned(), |error| format!("{error:.1e}")));
+            row.push(known(&level.orders, name).map_or("–".to_owned(), |order| format!("{order:.1}")));
+        }
+        row
+    };
+    let rows: Vec<Vec<String>> = levels.iter().map(row).collect();
     table(&head.iter().map(String::as_str).collect::<Vec<_>>(), &rows)
 }
 
-fn increments(counts: &Value) -> String {
-    let mut counts: Vec<String> = counts.as_array().into_iter().flatten().map(ToString::to_string).collect();
-    if counts.windows(2).all(|pair| pair[0] == pair[1]) {
-        counts.truncate(1);
-    }
-    counts.join("/")
-}
-
-fn largest(counts: &Value) -> f64 {
-    counts.as_array().into_iter().flatten().filter_map(Value::as_f64).fold(0.0, f64::max)
-}
-
-fn unsolved(study: &Value) -> Markup {
-    let levels: Vec<&Value> = study["unsolved"].as_array().into_iter().flatten().collect();
+fn unsolved(levels: &[UnsolvedRecord]) -> Markup {
     html! {
         @if !levels.is_empty() {
             (chapter("Levels that were not solved", &html! {
                 ul class="out" {
-                    @for level in levels {
-                        li { (level["cells"][0]) " x " (level["cells"][1]) " cells, " (increments(&level["increments"])) " increments: " (level["message"].as_str().unwrap_or_default()) }
+                    @for UnsolvedRecord { cells: [nx, ny], increments: counts, message } in levels {
+                        li { (nx) " x " (ny) " cells, " (increments(counts)) " increments: " (message) }
                     }
                 }
             }))

@@ -1,6 +1,7 @@
 //! The part of the grid that maps show, and the line through it that sections follow.
 
 use super::overview::Overview;
+use fret_core::model::Dimension;
 use fret_results::Field;
 
 /// Cells around the contact that are shown.
@@ -59,7 +60,8 @@ impl Section {
     /// The section of a run.
     pub fn of(view: &Overview<'_>) -> Self {
         let fields = &view.results.fields;
-        let upright = view.direction.is_some_and(|[x, y]| y.abs() > x.abs()) && !fields.is_line();
+        let upright =
+            view.direction.is_some_and(|[x, y]| y.abs() > x.abs()) && view.dimension() == Dimension::Plane;
         let (along, other) = if upright { (&fields.y, &fields.x) } else { (&fields.x, &fields.y) };
         let line = other.len() / 2;
         Self { upright, along: along.clone(), across: other[line], line }

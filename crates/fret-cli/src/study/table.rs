@@ -1,11 +1,8 @@
-//! A judged study as a table for a person, as CSV and as JSON for programs.
+//! A judged study as a table for a person and as CSV.
 
 use std::fmt::Write;
 
-use fret_core::study::{
-    Convergence, Errors, Form, Judged, Kind, Line, Quantity, Reference, RefinementStudy, Variation,
-};
-use serde_json::{Value, json};
+use fret_core::study::{Convergence, Errors, Form, Judged, Kind, Line, Quantity, Reference, RefinementStudy};
 
 use crate::study::words::name;
 
@@ -25,8 +22,7 @@ pub fn kind_name(kind: Kind) -> &'static str {
 }
 
 /// Increments of the stages: one number where all are alike.
-fn increments(variation: &Variation) -> String {
-    let counts = &variation.increments;
+pub fn increments(counts: &[usize]) -> String {
     if counts.windows(2).all(|pair| pair[0] == pair[1]) {
         counts.first().map_or(String::new(), ToString::to_string)
     } else {
@@ -91,7 +87,7 @@ pub fn table(study: &RefinementStudy, lines: &[Line], reference: &Reference) -> 
                 "{} {:<10}{:>11}{:>10.0e}{:>10.3}{:>13}",
                 if judged.is_efficient[Form::Between as usize] { '*' } else { ' ' },
                 format!("{nx} x {ny}"),
-                increments(&level.variation),
+                increments(&level.variation.increments),
                 level.variation.tolerance,
                 level.wall_s,
                 level.work.convolutions
@@ -140,7 +136,7 @@ pub fn csv(study: &RefinementStudy, lines: &[Line]) -> String {
                 text,
                 "{},{nx},{ny},{},{:e},{:e},{},{},{between},{plain},{extrapolated}",
                 kind_key(line.kind),
-                increments(&level.variation),
+                increments(&level.variation.increments),
                 level.variation.tolerance,
                 level.wall_s,
                 level.work.convolutions,
@@ -167,36 +163,4 @@ pub fn csv(study: &RefinementStudy, lines: &[Line]) -> String {
 /// A kind in files.
 fn kind_key(kind: Kind) -> String {
     serde_json::to_value(kind).ok().and_then(|value| value.as_str().map(str::to_owned)).unwrap_or_default()
-}
-
-/// The lines for programs.
-pub fn to_json(study: &RefinementStudy, lines: &[Line]) -> Value {
-    let numbers = |values: &[Option<f64>; 6]| {
-        let pairs = Quantity::ALL
-            .into_iter()
-            .map(|quantity| (quantity.name().to_owned(), json!(values[quantity as usize])));
-        Value::Object(pairs.collect())
-    };
-    let level = |judged: &Judged| {
-        let level = study.level(judged.place)?;
-        Some(json!({
-            "cells": level.variation.cells,
-            "increments": level.variation.increments,
-            "tolerance": level.variation.tolerance,
-            "wall_s": level.wall_s,
-            "work": level.work,
-            "ends": level.ends,
-            "errors": numbers(&judged.errors.between),
-            "errors_plain": numbers(&judged.errors.plain),
-            "errors_extrapolated": numbers(&judged.errors.extrapolated),
-            "orders": numbers(&judged.orders),
-            "error_of_pressure": judged.errors.pressure,
-            "error_of_shear": judged.errors.shear,
-            "order_of_pressure": judged.field_orders[0],
-            "order_of_shear": judged.field_orders[1],
-            "is_efficient": judged.is_efficient[Form::Between as usize],
-        }))
-    };
-    let line = |line: &Line| json!({ "refined": line.kind, "levels": line.levels.iter().filter_map(level).collect::<Vec<_>>() });
-    lines.iter().map(line).collect()
 }

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use fret_core::case::{Units, content};
-use fret_core::model::digest;
+use fret_core::model::{Dimension, digest};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
@@ -145,7 +145,7 @@ impl SweepFolder {
         let at =
             firsts.map(|point| question.keys.iter().cloned().zip(point.values[..beside].to_vec()).collect());
         let spread = Spread::new(keys, design, at.collect(), &columns);
-        write_whole(&self.path.join(UNCERTAINTY), format!("{:#}\n", spread.to_json()).as_bytes())?;
+        write_whole(&self.path.join(UNCERTAINTY), format!("{:#}\n", json!(spread.record())).as_bytes())?;
         Ok(Some(spread.table()))
     }
 
@@ -158,13 +158,13 @@ impl SweepFolder {
             values: point.values.iter().map(plain).collect(),
             file: self.file_name(point),
         };
-        let Setting { units, is_line } = Setting::of(question);
+        let Setting { units, dimension } = Setting::of(question);
         let record = SweepRecord {
             title: question.points.first().and_then(|point| title_of(&point.case_file.text)),
             keys: question.keys.clone(),
             drawn: question.drawn_keys().to_vec(),
             units,
-            is_line,
+            dimension,
             points: question.points.iter().map(point).collect(),
         };
         write_whole(&self.path.join(RECORD), format!("{}\n", json!(record)).as_bytes())
@@ -193,7 +193,7 @@ impl SweepFolder {
 /// In which units the numbers of a sweep are told.
 struct Setting {
     units: Option<Units>,
-    is_line: bool,
+    dimension: Dimension,
 }
 
 impl Setting {
@@ -202,16 +202,16 @@ impl Setting {
         let mut all = question.points.iter().map(|point| point.case_file.text.parse::<toml::Table>().ok());
         let of = |table: Option<toml::Table>| {
             let table = table.unwrap_or_default();
-            (units_of(&table), is_line(&table))
+            (units_of(&table), dimension_of(&table))
         };
-        let first = all.next().map_or((None, false), of);
+        let first = all.next().map_or((None, Dimension::Plane), of);
         let changes = |key: &str| question.keys.iter().any(|changed| changed.starts_with(key));
         let alike = !changes("units") && !changes("grid.cells") || all.all(|other| of(other) == first);
-        Self { units: first.0.filter(|_| alike), is_line: first.1 }
+        Self { units: first.0.filter(|_| alike), dimension: first.1 }
     }
 
     fn heading(&self, column: &SummaryColumn) -> String {
-        Units::heading(self.units.as_ref(), &column.name, &column.kind, self.is_line)
+        Units::heading(self.units.as_ref(), &column.name, &column.kind, self.dimension)
     }
 }
 
@@ -221,13 +221,13 @@ fn units_of(table: &toml::Table) -> Option<Units> {
     Some(Units::new(units.get("length")?.as_str()?, units.get("force")?.as_str()?))
 }
 
-/// Whether the contact of a case is a line contact: cells of one row, or told by one number.
-fn is_line(table: &toml::Table) -> bool {
-    match table.get("grid").and_then(|grid| grid.get("cells")) {
+/// Of a line contact the cells of a case are those of one row, or told by one number.
+fn dimension_of(table: &toml::Table) -> Dimension {
+    Dimension::from(match table.get("grid").and_then(|grid| grid.get("cells")) {
         Some(toml::Value::Array(cells)) => cells.get(1).and_then(toml::Value::as_integer) == Some(1),
         Some(cells) => cells.is_integer(),
         None => false,
-    }
+    })
 }
 
 fn title_of(text: &str) -> Option<String> {

@@ -17,4 +17,4 @@ pub use folder::{Kept, POINTS, RECORD, SweepFolder, UNCERTAINTY};
 pub use planned::{Planned, asks_for_more};
 pub use question::{Point, Question};
 pub use record::SweepRecord;
-pub use spread::Spread;
+pub use spread::{Quantities, QuantityRecord, Spread, SpreadRecord};

@@ -1,6 +1,7 @@
 //! `points.json`: which points a sweep has, in their order. What is written is what the page of the sweep reads back.
 
 use fret_core::case::Units;
+use fret_core::model::Dimension;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -16,7 +17,8 @@ pub struct SweepRecord {
     /// Units that the cases declare.
     pub units: Option<Units>,
     /// Whether these are line contacts, with loads per length.
-    pub is_line: bool,
+    #[serde(rename = "is_line")]
+    pub dimension: Dimension,
     /// The points.
     pub points: Vec<PointOfSweep>,
 }

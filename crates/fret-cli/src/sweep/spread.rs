@@ -1,9 +1,13 @@
 //! What the samples of a sweep say: statistics and Sobol' indices of its numbers, as `uncertainty.json` and as a table.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use fret_core::uncertainty::{QUANTILES, SampleDesign, Sensitivity, Statistics, sensitivity, statistics};
-use serde_json::{Map, Value, json};
+use fret_core::uncertainty::{
+    Distribution, QUANTILES, SampleDesign, Sensitivity, Statistics, sensitivity, statistics,
+};
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 
 use crate::figures::figure;
 
@@ -14,6 +18,50 @@ const COLUMN: usize = 13;
 
 /// A number that varies by less, relative, does not: the last digits of a prescribed force.
 const ROUNDING: f64 = 1e-13;
+
+/// `uncertainty.json`. What is written is what the page of the sweep reads back.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct SpreadRecord {
+    /// Samples of one block.
+    pub count: usize,
+    /// The seed of their points.
+    pub seed: u32,
+    /// Whether there are blocks for Sobol' indices.
+    pub indices: bool,
+    /// What each key was drawn from.
+    pub distributions: BTreeMap<String, Distribution>,
+    /// Fractions below the quantiles.
+    pub quantile_fractions: [f64; 5],
+    /// The numbers of the answers; nothing of a sweep with axes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub quantities: Option<Quantities>,
+    /// The points of the axes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub points: Option<Vec<PointRecord>>,
+}
+
+/// The samples at one point of the axes.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct PointRecord {
+    /// Values of the keys that are not drawn.
+    pub values: BTreeMap<String, Value>,
+    /// The numbers of the answers.
+    pub quantities: Quantities,
+}
+
+/// Numbers of the answers by their names.
+pub type Quantities = BTreeMap<String, QuantityRecord>;
+
+/// What the samples say of a number.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct QuantityRecord {
+    /// Its statistics.
+    #[serde(flatten)]
+    pub statistics: Statistics,
+    /// Its Sobol' indices by key, where they were asked for and it varies.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sobol_indices: Option<BTreeMap<String, Sensitivity>>,
+}
 
 /// A number of the answers.
 struct Quantity {
@@ -26,9 +74,7 @@ struct Quantity {
 impl Quantity {
     /// Whether the number varies by more than rounding.
     fn varies(&self) -> bool {
-        let Statistics { deviation, min, max, .. } = self.statistics;
-        // what is endless in some samples has no deviation, and varies
-        deviation > ROUNDING * min.abs().max(max.abs()) || min < max && (max - min).is_infinite()
+        self.statistics.varies(ROUNDING)
     }
 }
 
@@ -75,43 +121,35 @@ impl<'a> Spread<'a> {
         Self { keys, design, points: at.into_iter().enumerate().map(at_point).collect() }
     }
 
-    /// For `uncertainty.json`: `quantities`, or with axes `points`, each with its `values` and its `quantities`.
-    pub fn to_json(&self) -> Value {
-        let quantities = |point: &AtPoint| -> Value {
-            let mut quantities = Map::new();
-            for Quantity { name, statistics, indices } in &point.quantities {
-                let mut entry = json!(statistics);
-                if let Some(indices) = indices {
-                    entry["sobol_indices"] = self
-                        .keys
-                        .iter()
-                        .zip(indices)
-                        .map(|(key, index)| (key.clone(), json!(index)))
-                        .collect();
-                }
-                quantities.insert(name.clone(), entry);
-            }
-            quantities.into()
+    /// For `uncertainty.json`.
+    pub fn record(&self) -> SpreadRecord {
+        let quantities = |point: &AtPoint| -> Quantities {
+            let one = |Quantity { name, statistics, indices }: &Quantity| {
+                let of_keys =
+                    indices.as_ref().map(|indices| self.keys.iter().cloned().zip(indices.iter().copied()));
+                let sobol_indices = of_keys.map(Iterator::collect);
+                (name.clone(), QuantityRecord { statistics: *statistics, sobol_indices })
+            };
+            point.quantities.iter().map(one).collect()
         };
-        let keys = self.keys.iter().zip(&self.design.distributions);
-        let mut told = json!({
-            "count": self.design.count,
-            "seed": self.design.seed,
-            "indices": self.design.indices,
-            "distributions": keys.map(|(key, of)| (key.clone(), json!(of))).collect::<Map<_, _>>(),
-            "quantile_fractions": QUANTILES,
-        });
-        match &self.points[..] {
-            [only] if only.values.is_empty() => told["quantities"] = quantities(only),
-            points => {
-                let points = points.iter().map(|point| {
-                    let values = point.values.iter().map(|(key, value)| (key.clone(), json!(value)));
-                    json!({"values": values.collect::<Map<_, _>>(), "quantities": quantities(point)})
-                });
-                told["points"] = points.collect();
-            }
+        let point = |point: &AtPoint| {
+            let values = point.values.iter().map(|(key, value)| (key.clone(), json!(value)));
+            PointRecord { values: values.collect(), quantities: quantities(point) }
+        };
+        let alone = match &self.points[..] {
+            [only] if only.values.is_empty() => Some(quantities(only)),
+            _ => None,
+        };
+        let SampleDesign { distributions, count, seed, indices } = self.design;
+        SpreadRecord {
+            count: *count,
+            seed: *seed,
+            indices: *indices,
+            distributions: self.keys.iter().cloned().zip(distributions.iter().copied()).collect(),
+            quantile_fractions: QUANTILES,
+            points: alone.is_none().then(|| self.points.iter().map(point).collect()),
+            quantities: alone,
         }
-        told
     }
 
     /// For a person: the numbers that vary, point by point.

@@ -28,7 +28,7 @@ use super::units::Units;
 use super::wearing::wear;
 use crate::document::{At, Mistake, Places};
 use crate::model::stage::Stage;
-use crate::model::{CoulombFriction, Displacement};
+use crate::model::{CoulombFriction, Dimension, Displacement};
 
 /// Cells along one side of the grid, at the least.
 pub const FEWEST_CELLS: usize = 4;
@@ -52,7 +52,7 @@ pub(super) fn case(
     places: &Places,
 ) -> Result<Case, Vec<Mistake>> {
     let mut judge = judge_of(&file, attachments, places);
-    let (units, is_line) = (judge.units.clone(), judge.is_line);
+    let (units, dimension) = (judge.units.clone(), judge.dimension);
     let cells = cells(&mut judge, &file.grid.cells);
     let size = size(&mut judge, &file.grid.size, cells);
     let over = cells.map(|count| Cells { count, size: size.and_then(GridSize::given) });
@@ -74,15 +74,15 @@ pub(super) fn case(
     let stages = stages.zip(changes.as_ref()).map(|(stages, changes)| with_friction(stages, changes));
     let loading = (file.load.value.as_slice(), stages.as_deref());
     let friction_evolution = evolution(&mut judge, file.friction.as_ref(), friction.as_ref(), loading);
-    let datum = datum(&mut judge, &file.grid, (is_line, size), bodies.as_ref());
+    let datum = datum(&mut judge, &file.grid, size, bodies.as_ref());
     let beyond = beyond(&mut judge, &file.grid, size);
-    if is_line {
+    if dimension == Dimension::Line {
         line(&mut judge, &file.grid, loading, profile.as_ref());
         motion_without_datum(&mut judge, &file.grid, size, stages.as_deref(), bodies.as_ref());
     }
-    let periodic = !is_line
+    let periodic = dimension == Dimension::Plane
         && repeats(&mut judge, (&file.grid, cells, size), loading, profile.as_ref(), bodies.as_ref());
-    bulk_and_tilt(&mut judge, &file.grid, loading, bodies.as_ref(), (is_line, size));
+    bulk_and_tilt(&mut judge, &file.grid, loading, bodies.as_ref(), size);
     let mapped = friction.iter().chain(changes.iter().flatten().flatten()).any(CoulombFriction::is_map);
     let has_arrays = mapped || profile.as_ref().is_some_and(|profile| !profile.heights.is_empty());
     auto_without_arrays(&mut judge, &file.grid.size, has_arrays && !periodic);
@@ -109,7 +109,7 @@ pub(super) fn case(
         files,
         file.thermal.as_ref(),
         (stages.as_deref(), output.as_ref()),
-        (laws.as_deref(), is_line, periodic),
+        (laws.as_deref(), periodic),
     );
     if !judge.mistakes.is_empty() {
         return Err(judge.mistakes);
@@ -150,7 +150,7 @@ pub(super) fn case(
 
 /// What the whole case is judged with: its units, and whether it is a line contact.
 fn judge_of<'a>(file: &CaseFile, attachments: Attachments<'a>, places: &'a Places) -> Judge<'a> {
-    let is_line = matches!(&file.grid.cells.value, CellsFile::Line(_));
+    let dimension = Dimension::from(matches!(&file.grid.cells.value, CellsFile::Line(_)));
     let displacement = file.kinematics.as_ref().and_then(|given| given.value.displacement.as_ref());
     let moves = displacement.is_some_and(|given| given.value == Displacement::Finite);
     let (mistakes, force_unit) = (Vec::new(), String::new());
@@ -161,13 +161,13 @@ fn judge_of<'a>(file: &CaseFile, attachments: Attachments<'a>, places: &'a Place
         places,
         force_unit,
         units: None,
-        is_line,
+        dimension,
         moves,
         mean_plane,
         by_mean_gap,
     };
     judge.units = file.units.as_ref().and_then(|file| declared_units(&mut judge, file));
-    judge.force_unit = Units::after(judge.units.as_ref(), "force", is_line);
+    judge.force_unit = Units::after(judge.units.as_ref(), "force", dimension);
     judge
 }
 
@@ -222,15 +222,15 @@ fn size(judge: &mut Judge, given: &At<SizeFile>, cells: Option<[usize; 2]>) -> O
     if !judge.places.are_whole_in("grid.size") {
         return None;
     }
-    let is_line = cells.is_some_and(|cells| cells[1] == 1);
+    let dimension = cells.map_or(Dimension::Plane, Dimension::of);
     match given.value {
         SizeFile::Auto(_) => Some(GridSize::Auto),
-        SizeFile::Given(_) if is_line => judge.refuse(
+        SizeFile::Given(_) if dimension == Dimension::Line => judge.refuse(
             given.span(),
             "grid.size: two side lengths, but a single number of cells, which makes a line contact",
             "size = length, or cells = [x, y]",
         ),
-        SizeFile::Line(_) if !is_line => {
+        SizeFile::Line(_) if dimension == Dimension::Plane => {
             cells?;
             judge.refuse(
                 given.span(),

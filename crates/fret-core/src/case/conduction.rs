@@ -6,7 +6,7 @@ use super::output::Output;
 use super::parts::{Constant, NamedBody};
 use crate::document::At;
 use crate::model::stage::{Course, Stage};
-use crate::model::{ConductingLayer, Conduction, Conductor, CoulombFriction};
+use crate::model::{ConductingLayer, Conduction, Conductor, CoulombFriction, Dimension};
 
 /// Conductors of the lower and the upper body; what was refused conducts nothing.
 pub(super) fn conduction(
@@ -14,7 +14,7 @@ pub(super) fn conduction(
     bodies: [NamedBody<'_>; 2],
     table: Option<&At<ThermalFile>>,
     history: (Option<&[Stage]>, Option<&Output>),
-    (friction, is_line, periodic): (Option<&[&CoulombFriction]>, bool, bool),
+    (friction, periodic): (Option<&[&CoulombFriction]>, bool),
 ) -> Conduction {
     let before = judge.mistakes.len();
     let mut of = |constant| bodies.map(|body| conductor(judge, body, constant));
@@ -25,7 +25,7 @@ pub(super) fn conduction(
     if judge.mistakes.len() > before {
         return conduction;
     }
-    if let Some((why, help)) = without_meaning(&conduction, history, (friction, is_line, periodic)) {
+    if let Some((why, help)) = without_meaning(&conduction, history, (friction, judge.dimension, periodic)) {
         judge.refuse::<()>(table.span(), format!("thermal: {why}"), help);
     }
     conduction
@@ -35,7 +35,7 @@ pub(super) fn conduction(
 fn without_meaning(
     conduction: &Conduction,
     (stages, output): (Option<&[Stage]>, Option<&Output>),
-    (friction, is_line, periodic): (Option<&[&CoulombFriction]>, bool, bool),
+    (friction, dimension, periodic): (Option<&[&CoulombFriction]>, Dimension, bool),
 ) -> Option<(&'static str, &'static str)> {
     let is_cyclic = |stage: &Stage| matches!(stage.course, Course::Cycles(_));
     if conduction.thermal.iter().all(Option::is_none) {
@@ -53,7 +53,7 @@ fn without_meaning(
             "without max_shear, or without [thermal]: the contact resistance needs none",
         ));
     }
-    if is_line {
+    if dimension == Dimension::Line {
         return Some((
             "a line contact: along an infinite line no steady temperature is finite",
             "cells = [x, y], a contact of finite length",

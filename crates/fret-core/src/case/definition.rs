@@ -10,8 +10,9 @@ use crate::document::Mistake;
 use crate::kernel::uniform_response;
 use crate::model::stage::Stage;
 use crate::model::{
-    Beyond, CellMap, Conduction, ContactPair, CoulombFriction, FrictionEvolution, Heights, HeightsSummary,
-    Integration, Kinematics, LoadStep, MapSummary, Profile, ResidualStress, Rig, Scheme, WearRule,
+    Beyond, CellMap, Conduction, ContactPair, CoulombFriction, Dimension, FrictionEvolution, Heights,
+    HeightsSummary, Integration, Kinematics, LoadStep, MapSummary, Profile, ResidualStress, Rig, Scheme,
+    WearRule,
 };
 use crate::subsurface::fatigue::LayerConstants;
 
@@ -133,9 +134,19 @@ impl GridSize {
 }
 
 impl<M, H> Case<M, H> {
+    /// Whether its contact has two axes or is a line contact.
+    pub fn dimension(&self) -> Dimension {
+        Dimension::of(self.cells)
+    }
+
+    /// The head of a column: its name, with its unit in brackets where the case declares units; `kind` as in `force x length`.
+    pub fn heading(&self, name: &str, kind: &str) -> String {
+        Units::heading(self.units.as_ref(), name, kind, self.dimension())
+    }
+
     /// Whether it is a line contact: plane strain across a line along y, all loads per unit length.
     pub fn is_line(&self) -> bool {
-        self.cells[1] == 1
+        self.dimension() == Dimension::Line
     }
 
     /// Whether the bodies have a mean gap in place of an approach: periodic half-spaces, which a uniform pressure moves without bound.

@@ -6,6 +6,7 @@ use super::attachments::Attachments;
 use super::numbers::letters;
 use super::units::Units;
 use crate::document::{At, Mistake, Places};
+use crate::model::Dimension;
 
 /// Why a case has no mean gap to prescribe, and what to prescribe instead.
 pub(super) type WithoutMeanGap = (&'static str, &'static str);
@@ -21,7 +22,7 @@ pub(super) struct Judge<'a> {
     /// Units that the case declares.
     pub(super) units: Option<Units>,
     /// Whether loads are those of a unit of length.
-    pub(super) is_line: bool,
+    pub(super) dimension: Dimension,
     /// Whether the surfaces move with their bodies.
     pub(super) moves: bool,
     /// Mean of the undeformed gap [length], from which a mean gap counts; or why none can be prescribed, and what to do instead.

@@ -8,7 +8,7 @@ use super::misfits::{Loading, Misfit};
 use super::{GridSize, Stage};
 use crate::model::controls::TWIST;
 use crate::model::stage::StageControl;
-use crate::model::{Axis, ContactPair, Profile, Shape};
+use crate::model::{Axis, ContactPair, Dimension, Profile, Shape};
 
 /// Depth of the datum in units of the size of the grid.
 pub const DATUM: RangeInclusive<f64> = 1e-3..=1e12;
@@ -94,12 +94,12 @@ pub(super) fn motion_without_datum(
 pub(super) fn datum(
     judge: &mut Judge,
     grid: &GridFile,
-    (is_line, size): (bool, Option<GridSize>),
+    size: Option<GridSize>,
     bodies: Option<&ContactPair>,
 ) -> Option<f64> {
     let given = grid.datum.as_ref()?;
     let depth = given.value;
-    if !is_line {
+    if judge.dimension == Dimension::Plane {
         return judge.refuse(
             given.span(),
             "grid.datum: only a line contact needs one; here approach and shift are relative to infinity",

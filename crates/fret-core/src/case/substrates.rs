@@ -11,7 +11,7 @@ use crate::document::At;
 use crate::model::stage::Stage;
 
 use crate::model::bulk::substrate;
-use crate::model::{Body, ContactPair};
+use crate::model::{Body, ContactPair, Dimension};
 
 /// Refuses bulk stresses of bodies without a substrate, both of them in periodic cases, two values in a line contact and one elsewhere,
 /// tilt on a grid whose size is left to the program.
@@ -20,7 +20,7 @@ pub(super) fn bulk_and_tilt(
     grid: &GridFile,
     (stages, checked): Loading<'_>,
     bodies: Option<&ContactPair>,
-    (is_line, size): (bool, Option<GridSize>),
+    size: Option<GridSize>,
 ) {
     let periodic = grid.periodic.as_ref().is_some_and(|periodic| periodic.value);
     for (index, file) in stages.iter().enumerate() {
@@ -55,7 +55,7 @@ pub(super) fn bulk_and_tilt(
                 continue;
             }
             if let Some(given) = given {
-                one_or_two(judge, &place, key, given, is_line);
+                one_or_two(judge, &place, key, given);
             }
             if let Some(body) = body
                 && substrate(body).is_none()
@@ -70,7 +70,7 @@ pub(super) fn bulk_and_tilt(
                 );
             }
         }
-        if let (true, Some(span)) = (is_line, along_line) {
+        if let (Dimension::Line, Some(span)) = (judge.dimension, along_line) {
             judge.refuse::<()>(
                 span,
                 format!("{place}.table: a tilt or a bulk stress along y in a line contact along y"),
@@ -91,10 +91,12 @@ pub(super) fn bulk_and_tilt(
 /// A key, the body that it stretches, what is given, where a table prescribes it.
 type Control<'a> = (&'a str, Option<&'a Body>, Option<&'a Given>, Option<Range<usize>>);
 
-fn one_or_two(judge: &mut Judge, place: &str, key: &str, given: &Given, is_line: bool) {
-    let (message, help) = match (given.values.len(), is_line) {
-        (2, true) => ("two values in a line contact, in which nothing changes along y", "one number"),
-        (1, false) => ("one number, but the contact has two axes", "[along x, along y]"),
+fn one_or_two(judge: &mut Judge, place: &str, key: &str, given: &Given) {
+    let (message, help) = match (given.values.len(), judge.dimension) {
+        (2, Dimension::Line) => {
+            ("two values in a line contact, in which nothing changes along y", "one number")
+        }
+        (1, Dimension::Plane) => ("one number, but the contact has two axes", "[along x, along y]"),
         _ => return,
     };
     judge.refuse::<()>(given.span(), format!("{place}.{key}: {message}"), &format!("{key} = {help}"));

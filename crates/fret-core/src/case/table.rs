@@ -10,7 +10,6 @@ use super::known_units::{Conversion, UnitError, conversion, is_unit, known_units
 use super::numbers::{NoNumber, number};
 use super::stage_file::StageFile;
 use super::table_layout::{Layout, layout};
-use super::units::Units;
 use crate::document::At;
 
 /// Rows of a table, at the most.
@@ -135,7 +134,7 @@ fn convert(judge: &mut Judge, at: &Words, line: usize, chosen: &mut [Chosen]) ->
     for column in chosen {
         let Some(unit) = &column.unit else { continue };
         let Column { name: control, way, .. } = &column.control;
-        let kind = if judge.is_line { Units::per_length(way.unit) } else { way.unit };
+        let kind = judge.dimension.kind(way.unit);
         match conversion(unit, kind, judge.units.as_ref()) {
             Ok(conversion) => column.conversion = conversion,
             Err(error) => {

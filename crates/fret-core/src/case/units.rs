@@ -3,6 +3,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::model::Dimension;
+
 /// Declared units.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Units {
@@ -39,20 +41,20 @@ impl Units {
     }
 
     /// The head of a column: its name, with its unit in brackets where the case declares units and the quantity has one of them.
-    pub fn heading(units: Option<&Self>, name: &str, kind: &str, is_line: bool) -> String {
-        match Self::unit(units, kind, is_line) {
+    pub fn heading(units: Option<&Self>, name: &str, kind: &str, dimension: Dimension) -> String {
+        match Self::unit(units, kind, dimension) {
             Some(unit) => format!("{name} [{unit}]"),
             None => name.to_owned(),
         }
     }
 
     /// What follows a number in a sentence: a space and its unit; nothing where the case declares no units or the quantity has none.
-    pub fn after(units: Option<&Self>, kind: &str, is_line: bool) -> String {
-        Self::unit(units, kind, is_line).map_or_else(String::new, |unit| format!(" {unit}"))
+    pub fn after(units: Option<&Self>, kind: &str, dimension: Dimension) -> String {
+        Self::unit(units, kind, dimension).map_or_else(String::new, |unit| format!(" {unit}"))
     }
 
-    fn unit(units: Option<&Self>, kind: &str, is_line: bool) -> Option<String> {
-        let kind = if is_line { Self::per_length(kind) } else { kind };
+    fn unit(units: Option<&Self>, kind: &str, dimension: Dimension) -> Option<String> {
+        let kind = dimension.kind(kind);
         let depends = ["length", "force", "pressure"].iter().any(|word| kind.contains(word));
         units.filter(|_| depends).map(|units| units.of(kind))
     }
@@ -60,18 +62,6 @@ impl Units {
     /// The name of a column, whose head may have a unit.
     pub fn name_of(heading: &str) -> &str {
         heading.split_once(" [").map_or(heading, |(name, _)| name)
-    }
-
-    /// The kind of a quantity of a line contact, whose loads are those of a unit of length; `kind` is that of a point contact.
-    pub fn per_length(kind: &str) -> &str {
-        match kind {
-            "force" => "force/length",
-            "force x length" => "force",
-            "length^2" => "length",
-            "length^3" => "length^2",
-            "force/length" => "force/length^2",
-            other => other,
-        }
     }
 }
 
@@ -133,16 +123,18 @@ mod tests {
     #[test]
     fn heads_of_columns_have_units_where_there_are_some() {
         let units = Units::new("mm", "N");
-        let head = |name: &str, kind: &str, is_line: bool| Units::heading(Some(&units), name, kind, is_line);
+        let head = |name: &str, kind: &str, of_a_line: bool| {
+            Units::heading(Some(&units), name, kind, Dimension::from(of_a_line))
+        };
         assert_eq!(head("normal_force", "force", false), "normal_force [N]");
         assert_eq!(head("normal_force", "force", true), "normal_force [N/mm]");
         assert_eq!(head("dissipated_energy", "force x length", true), "dissipated_energy [N]");
         assert_eq!(head("wall_s", "s", false), "wall_s");
-        assert_eq!(Units::heading(None, "approach", "length", false), "approach");
+        assert_eq!(Units::heading(None, "approach", "length", Dimension::Plane), "approach");
         assert_eq!(Units::name_of("normal_force [N/mm]"), "normal_force");
-        assert_eq!(Units::after(Some(&units), "force", true), " N/mm");
-        assert_eq!(Units::after(Some(&units), "-", false), "");
-        assert_eq!(Units::after(None, "force", false), "");
+        assert_eq!(Units::after(Some(&units), "force", Dimension::Line), " N/mm");
+        assert_eq!(Units::after(Some(&units), "-", Dimension::Plane), "");
+        assert_eq!(Units::after(None, "force", Dimension::Plane), "");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
 use crate::kernel::{Components, PairResponse, coefficients_of, symbols_of};
-use crate::model::{Conductor, SurfaceGrid};
+use crate::model::{Conductor, Dimension, SurfaceGrid};
 use fret_fft::ConvolutionError;
 
 /// Residual that is accepted, relative to the largest potential asked for.
@@ -53,7 +53,7 @@ impl Potential {
         grid: &SurfaceGrid,
         periodic: bool,
     ) -> Result<Self, ConductionError> {
-        if grid.is_line() {
+        if grid.dimension() == Dimension::Line {
             return Err(ConductionError::Line);
         }
         let response = PairResponse::conduction(conductors);

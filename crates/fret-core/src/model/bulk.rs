@@ -1,5 +1,6 @@
 //! Bulk stress: a remote stress of a body's substrate, and the strain that all of its layers share under it.
 
+use super::dimension::Dimension;
 use super::half_space::{Base, Body, ContactPair, ElasticMaterial, HalfSpace};
 
 /// Strains of the surfaces of a pair under the bulk stresses of its substrates.
@@ -17,14 +18,13 @@ impl BulkCompliance {
     pub const NONE: Self = Self { bodies: [[0.0; 2]; 2] };
 
     /// That of a pair; in a line contact in plane strain.
-    pub fn of(pair: &ContactPair, plane_strain: bool) -> Self {
+    pub fn of(pair: &ContactPair, dimension: Dimension) -> Self {
         let of = |body: &Body| {
             let Some(material) = substrate(body) else { return [0.0; 2] };
             let (young, poisson) = (material.young(), material.poisson());
-            if plane_strain {
-                [(1.0 - poisson * poisson) / young, 0.0]
-            } else {
-                [1.0 / young, -poisson / young]
+            match dimension {
+                Dimension::Plane => [1.0 / young, -poisson / young],
+                Dimension::Line => [(1.0 - poisson * poisson) / young, 0.0],
             }
         };
         Self { bodies: [of(pair.lower()), of(pair.upper())] }
@@ -64,19 +64,18 @@ pub fn bulk_stress_in_layer(
     half_space: &HalfSpace,
     layer: usize,
     bulk_stress: [f64; 2],
-    plane_strain: bool,
+    dimension: Dimension,
 ) -> [f64; 2] {
     let Base::Elastic(base) = half_space.base() else { return [0.0; 2] };
     let material = half_space.coatings().get(layer).map_or(base, |coating| coating.material());
     let [x, y] = bulk_stress;
-    if material == base && !plane_strain {
+    if material == base && dimension == Dimension::Plane {
         return bulk_stress;
     }
     let (young, poisson) = (base.young(), base.poisson());
-    let [along_x, along_y] = if plane_strain {
-        [x * (1.0 - poisson * poisson) / young, 0.0]
-    } else {
-        [(x - poisson * y) / young, (y - poisson * x) / young]
+    let [along_x, along_y] = match dimension {
+        Dimension::Plane => [(x - poisson * y) / young, (y - poisson * x) / young],
+        Dimension::Line => [x * (1.0 - poisson * poisson) / young, 0.0],
     };
     let nu = material.poisson();
     let stiffness = material.young() / (1.0 - nu * nu);
@@ -96,11 +95,11 @@ mod tests {
         let body = HalfSpace::new(vec![Coating::new(coat, 1.0).unwrap()], Base::Elastic(base)).unwrap();
         let pair = ContactPair::new(Body::Rigid, Body::Elastic(body.clone())).unwrap();
         let loads = [[1.0, 0.0], [7.0, 7.0]];
-        assert_eq!(BulkCompliance::of(&pair, false).relative_strain(loads), [0.5, -0.125]);
-        assert_eq!(BulkCompliance::of(&pair, true).relative_strain(loads), [15.0 / 32.0, 0.0]);
-        assert_eq!(bulk_stress_in_layer(&body, 1, [1.0, 0.0], false), [1.0, 0.0]);
-        assert_eq!(bulk_stress_in_layer(&body, 0, [1.0, 0.0], false), [4.0 * 0.4375, 4.0 * 0.125]);
-        assert_eq!(bulk_stress_in_layer(&body, 1, [1.0, 0.0], true), [1.0, 0.25]);
+        assert_eq!(BulkCompliance::of(&pair, Dimension::Plane).relative_strain(loads), [0.5, -0.125]);
+        assert_eq!(BulkCompliance::of(&pair, Dimension::Line).relative_strain(loads), [15.0 / 32.0, 0.0]);
+        assert_eq!(bulk_stress_in_layer(&body, 1, [1.0, 0.0], Dimension::Plane), [1.0, 0.0]);
+        assert_eq!(bulk_stress_in_layer(&body, 0, [1.0, 0.0], Dimension::Plane), [4.0 * 0.4375, 4.0 * 0.125]);
+        assert_eq!(bulk_stress_in_layer(&body, 1, [1.0, 0.0], Dimension::Line), [1.0, 0.25]);
     }
 
     #[test]
@@ -108,6 +107,6 @@ mod tests {
         let base = ElasticMaterial::new(2.0, 0.25).unwrap();
         let body = || Body::Elastic(HalfSpace::homogeneous(base));
         let pair = ContactPair::new(body(), body()).unwrap();
-        assert_eq!(BulkCompliance::of(&pair, false).relative_strain([[1.0, 3.0]; 2]), [0.0; 2]);
+        assert_eq!(BulkCompliance::of(&pair, Dimension::Plane).relative_strain([[1.0, 3.0]; 2]), [0.0; 2]);
     }
 }

@@ -3,6 +3,8 @@
 use ndarray::Array1;
 use serde::{Deserialize, Serialize};
 
+use super::dimension::Dimension;
+
 /// A uniform grid of `cells[0] x cells[1]` rectangular cells. Fields on it have shape `(nx, ny)`, index `[i, j]` = `[x, y]`.
 ///
 /// A grid of `n x 1` cells is that of a line contact: strips that reach to infinity along y. Its areas, forces and energies are
@@ -48,9 +50,14 @@ impl SurfaceGrid {
         Self::new([strips, 1], [width; 2])
     }
 
+    /// Whether its cells are those of an area or strips.
+    pub fn dimension(&self) -> Dimension {
+        Dimension::of(self.cells)
+    }
+
     /// Whether it is the grid of a line contact.
     pub fn is_line(&self) -> bool {
-        self.cells[1] == 1
+        self.dimension() == Dimension::Line
     }
 
     /// Number of cells `[nx, ny]`.
@@ -70,7 +77,7 @@ impl SurfaceGrid {
 
     /// Area of one cell [length^2]; of a line contact, of a unit of its length [length].
     pub fn cell_area(&self) -> f64 {
-        if self.is_line() { self.spacing[0] } else { self.spacing[0] * self.spacing[1] }
+        self.dimension().cell_area(self.spacing)
     }
 
     /// Number of all cells.

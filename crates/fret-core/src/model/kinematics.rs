@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::dimension::Dimension;
 use super::grid::SurfaceGrid;
 use crate::document::Table;
 
@@ -63,13 +64,13 @@ const TIE: f64 = 1e-6;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion {
     spacing: [f64; 2],
-    is_line: bool,
+    dimension: Dimension,
 }
 
 impl Motion {
     /// On a grid.
     pub fn over(grid: &SurfaceGrid) -> Self {
-        Self { spacing: grid.spacing(), is_line: grid.is_line() }
+        Self { spacing: grid.spacing(), dimension: grid.dimension() }
     }
 
     /// Where the upper surface lies after a shift [length]: cells along each axis, rounded to a hundredth of a cell. Along a line contact nothing
@@ -79,7 +80,7 @@ impl Motion {
             let steps = shift[axis] / self.spacing[axis] * STEPS;
             (steps + TIE * steps.signum()).round() / STEPS
         };
-        [rounded(0), if self.is_line { 0.0 } else { rounded(1) }]
+        self.dimension.along(rounded, 0.0)
     }
 
     /// Whether a motion is less than what positions are rounded to.

@@ -10,7 +10,8 @@ use crate::kernel::{
     Components, cells_too_coarse_for_incompressible_film, influence_coefficients, line_coefficients,
 };
 use crate::model::{
-    Axis, Base, Body, ContactState, Control, CoulombFriction, ElasticMaterial, LoadStep, Shape, SurfaceGrid,
+    Axis, Base, Body, ContactState, Control, CoulombFriction, Dimension, ElasticMaterial, LoadStep, Shape,
+    SurfaceGrid,
 };
 use crate::solver::{ContactSolver, Coupling, SolveError, SolverSettings};
 
@@ -54,7 +55,7 @@ pub fn reaches_beyond(case: &Case, size: [f64; 2]) -> bool {
         Extent::Beyond => true,
         Extent::Inside(widths, _) => {
             let cells = coarse_cells(case);
-            axes(case).any(|axis| widths[axis] - wider[axis] / cells[axis] as f64 > size[axis])
+            case.dimension().axes().any(|axis| widths[axis] - wider[axis] / cells[axis] as f64 > size[axis])
         }
         Extent::Nothing | Extent::Unknown => false,
     }
@@ -62,12 +63,10 @@ pub fn reaches_beyond(case: &Case, size: [f64; 2]) -> bool {
 
 /// The coarse grid of a case.
 pub(super) fn coarse_cells(case: &Case) -> [usize; 2] {
-    if case.is_line() { [COARSE_LINE, 1] } else { [COARSE; 2] }
-}
-
-/// The axes along which the contact of a case ends.
-pub(super) fn axes(case: &Case) -> std::ops::Range<usize> {
-    if case.is_line() { 0..1 } else { 0..2 }
+    match case.dimension() {
+        Dimension::Plane => [COARSE; 2],
+        Dimension::Line => [COARSE_LINE, 1],
+    }
 }
 
 /// Why a contact is not known before the run.
@@ -105,8 +104,8 @@ fn contact_extent(case: &Case, size: [f64; 2]) -> Extent {
 
 /// Side lengths such that a contact fits with a margin.
 pub fn automatic_size(case: &Case, contact: &ExpectedContact) -> [f64; 2] {
-    let [x, y] = [0, 1].map(|axis| margin(case.cells[axis]) * 2.0 * contact.half_widths[axis]);
-    if case.is_line() { [x, x / case.cells[0] as f64] } else { [x, y] }
+    let sides = [0, 1].map(|axis| margin(case.cells[axis]) * 2.0 * contact.half_widths[axis]);
+    case.dimension().sides(sides, case.cells)
 }
 
 /// Side of a grid of so many cells in units of the contact's width: the margin, and at least so much that the outermost centres lie a quarter
@@ -128,7 +127,7 @@ pub fn expected_contact(case: &Case) -> Result<ExpectedContact, Unexpected> {
         match contact_extent(case, size) {
             Extent::Beyond => size = size.map(|side| 2.0 * side),
             Extent::Inside(widths, approach) => {
-                let fine = axes(case).all(|axis| widths[axis] >= 0.45 * size[axis]);
+                let fine = case.dimension().axes().all(|axis| widths[axis] >= 0.45 * size[axis]);
                 if fine {
                     return Ok(ExpectedContact { half_widths: widths.map(|width| 0.5 * width), approach });
                 }
@@ -150,7 +149,9 @@ fn why_unsolved(case: &Case, size: [f64; 2]) -> Unexpected {
         Body::Elastic(half_space) => cells_too_coarse_for_incompressible_film(half_space, spacing),
     };
     match case.datum {
-        Some(datum) if case.is_line() && !DATUM.contains(&(datum / size[0])) => Unexpected::Datum(size[0]),
+        Some(datum) if case.dimension() == Dimension::Line && !DATUM.contains(&(datum / size[0])) => {
+            Unexpected::Datum(size[0])
+        }
         _ if is_unseen(case.bodies.upper()) || is_unseen(case.bodies.lower()) => Unexpected::UnseenFilm,
         _ => Unexpected::Unsolved,
     }
@@ -187,11 +188,12 @@ pub(super) fn coarse_response(
     components: Components,
 ) -> SurfaceResponse {
     let (cells, spacing) = (grid.cells(), grid.spacing());
-    SurfaceResponse::FreeSpace(if case.is_line() {
-        let datum = case.datum.unwrap_or(length);
-        line_coefficients(&case.bodies, cells[0], spacing[0], datum, components)
-    } else {
-        influence_coefficients(&case.bodies, cells, spacing, components)
+    SurfaceResponse::FreeSpace(match case.dimension() {
+        Dimension::Plane => influence_coefficients(&case.bodies, cells, spacing, components),
+        Dimension::Line => {
+            let datum = case.datum.unwrap_or(length);
+            line_coefficients(&case.bodies, cells[0], spacing[0], datum, components)
+        }
     })
 }
 
@@ -230,7 +232,7 @@ fn extent_under(case: &Case, size: [f64; 2], normal: Control) -> Extent {
             pressure.axis_iter(ndarray::Axis(axis)).filter(|line| line.iter().any(|p| *p > 0.0)).count();
         touched as f64 * spacing[axis]
     };
-    let widths = if case.is_line() { [width(0); 2] } else { [width(0), width(1)] };
+    let widths = case.dimension().along(width, width(0));
     if solved.outcome.contact_cells == 0 {
         Extent::Nothing
     } else {
@@ -243,7 +245,7 @@ fn extent_under(case: &Case, size: [f64; 2], normal: Control) -> Extent {
 fn first_guess(case: &Case) -> Option<[f64; 2]> {
     let compliance = compliance(case.bodies.upper()) + compliance(case.bodies.lower());
     let [x, y] = case.profile.curvatures();
-    if case.is_line() {
+    if case.dimension() == Dimension::Line {
         return first_guess_of_line(case, x, compliance).map(|half| [half; 2]);
     }
     let round = (x > 0.0 && y > 0.0).then(|| Shape::Sphere { radius: (x * y).sqrt().recip() });

@@ -9,7 +9,7 @@ use super::simplification::{LeaveOut, Simplification};
 use super::symmetry::{is_stretched, is_twisted};
 use crate::case::{Case, Stage};
 use crate::kernel::PairResponse;
-use crate::model::{AccumulatedSlip, Body, ContactState, SurfaceGrid, Symmetry};
+use crate::model::{AccumulatedSlip, Body, ContactState, Dimension, SurfaceGrid, Symmetry};
 use crate::solver::Coupling;
 
 /// An automatic simplification.
@@ -178,8 +178,8 @@ pub fn one_way(
     }
     let moves = |axis: usize| is_loaded(case, axis, start) || is_stretched(case, axis, start);
     let axis = match [moves(0), moves(1)] {
-        [_, false] if grid.is_line() => 0,
         [true, false] => 0,
+        [false, false] if grid.dimension() == Dimension::Line => 0,
         [false, true] => 1,
         _ => return None,
     };
@@ -197,7 +197,7 @@ pub fn one_way(
 
 /// Whether a case is periodic and nothing in it changes along an axis, or that is the axis of a line contact.
 fn is_endless(case: &Case, grid: &SurfaceGrid, axis: usize) -> bool {
-    if grid.is_line() {
+    if grid.dimension() == Dimension::Line {
         return axis == 1;
     }
     let maps = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);

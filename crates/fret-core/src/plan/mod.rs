@@ -20,7 +20,7 @@ use crate::case::{Case, CaseError, CaseRecord, GridSize};
 use crate::history::Start;
 use crate::kernel::{PairResponse, cells_too_coarse_for_incompressible_film};
 use crate::machine::memory::{MemoryError, claim};
-use crate::model::{Body, ContactState, SurfaceGrid, Symmetry};
+use crate::model::{Body, ContactState, Dimension, SurfaceGrid, Symmetry};
 pub use crate::solver::Coupling;
 pub use advance::Advance;
 pub use extent::ExpectedContact;
@@ -171,7 +171,7 @@ impl Plan {
             return Err(case.refuse_size(message, case.way_from_the_edge()));
         }
         in_whole_cells(&case, &grid)?;
-        let has_datum = case.is_line() && case.bodies.has_elastic_base();
+        let has_datum = case.dimension() == Dimension::Line && case.bodies.has_elastic_base();
         let datum = has_datum.then(|| case.datum.unwrap_or(size[0]));
         let along = left_out::one_way(&case, &grid, &response, coupling, state)
             .filter(|_| leave_out.takes(Simplification::Transverse));

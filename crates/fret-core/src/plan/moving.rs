@@ -7,7 +7,10 @@ use crate::model::{ContactState, Control, Frame, LoadStep, Motion, SurfaceGrid};
 /// Whether the upper body moves along an axis (0: x, 1: y) by more than positions of surfaces are rounded to, as far as the case tells. Where a
 /// force or a spring moves it, it may.
 pub fn moves_along(case: &Case, grid: &SurfaceGrid, axis: usize, start: Option<&ContactState>) -> bool {
-    if !case.kinematics.is_finite() || grid.is_line() && axis == 1 || !is_loaded(case, axis, start) {
+    if !case.kinematics.is_finite()
+        || !case.dimension().axes().contains(&axis)
+        || !is_loaded(case, axis, start)
+    {
         return false;
     }
     let motion = Motion::over(grid);
@@ -59,10 +62,9 @@ fn parts_of_cells(case: &Case, grid: &SurfaceGrid) -> Option<(usize, f64)> {
         let start = held;
         for k in 1..=stage.increments_in_all() {
             let load = stage.load(&start, k);
-            for axis in 0..2 {
+            for axis in grid.dimension().axes() {
                 let cells = (load.roll[axis] - held.roll[axis]) / grid.spacing()[axis];
-                let is_still = grid.is_line() && axis == 1;
-                if !is_still && (cells - cells.round()).abs() > 1e-6 {
+                if (cells - cells.round()).abs() > 1e-6 {
                     return Some((number, cells));
                 }
             }
@@ -99,6 +101,5 @@ pub fn with_room_to_move(case: &Case, size: [f64; 2]) -> [f64; 2] {
             }
         }
     });
-    let [x, y] = [0, 1].map(|axis| size[axis] + 2.0 * most[axis]);
-    if case.is_line() { [x, x / case.cells[0] as f64] } else { [x, y] }
+    case.dimension().sides([0, 1].map(|axis| size[axis] + 2.0 * most[axis]), case.cells)
 }

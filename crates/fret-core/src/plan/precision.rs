@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use crate::case::Case;
 use crate::kernel::PairResponse;
-use crate::model::SurfaceGrid;
+use crate::model::{Dimension, SurfaceGrid};
 use crate::solver::Coupling;
 
 /// Single precision does when long and short waves move the surfaces alike up to this factor: rounding is relative to the waves that move
@@ -34,5 +34,9 @@ pub fn single_precision_does(
     let has_friction =
         coupling != Coupling::Coupled || frictions.all(|friction| friction.largest() >= LEAST_FRICTION);
     let alike = softening < ALIKE && softening > 1.0 / ALIKE;
-    !case.periodic && !grid.is_line() && grid.len() >= LEAST_CELLS && alike && has_friction
+    !case.periodic
+        && grid.dimension() == Dimension::Plane
+        && grid.len() >= LEAST_CELLS
+        && alike
+        && has_friction
 }

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::extent::{MARGIN, axes, coarse_grid, coarse_response, heaviest_loads};
+use super::extent::{MARGIN, coarse_grid, coarse_response, heaviest_loads};
 use crate::case::Case;
 use crate::kernel::Components;
 use crate::model::{
@@ -24,10 +24,10 @@ pub fn with_room_to_slide(case: &Case, size: [f64; 2]) -> [f64; 2] {
         return size;
     }
     let pulled = |axis: &usize| case.stages.iter().any(|stage| stage.tangential[*axis].is_some());
-    for direction in axes(case).filter(pulled) {
+    for direction in case.dimension().axes().filter(pulled) {
         for normal in heaviest_loads(case) {
             let Some(reach) = reach_in_sliding(case, size, normal, direction) else { continue };
-            for axis in axes(case) {
+            for axis in case.dimension().axes() {
                 let outermost = 0.5 * size[axis] * (1.0 - 1.0 / case.cells[axis] as f64);
                 if reach[axis] >= outermost {
                     wanted[axis] = wanted[axis].max(2.0 * MARGIN * reach[axis]);
@@ -35,7 +35,7 @@ pub fn with_room_to_slide(case: &Case, size: [f64; 2]) -> [f64; 2] {
             }
         }
     }
-    if case.is_line() { [wanted[0], wanted[0] / case.cells[0] as f64] } else { wanted }
+    case.dimension().sides(wanted, case.cells)
 }
 
 /// Whether a body has a nearly incompressible layer that is softer than what lies below all layers.

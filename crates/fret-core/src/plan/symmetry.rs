@@ -3,7 +3,7 @@
 use super::loaded::{asks_for_something, is_loaded};
 use super::moving::{moves_along, rolls_along};
 use crate::case::Case;
-use crate::model::{BulkCompliance, ContactState, SurfaceGrid, Symmetry};
+use crate::model::{BulkCompliance, ContactState, Dimension, SurfaceGrid, Symmetry};
 use crate::solver::Coupling;
 
 /// Along fewer cells a mirror saves nothing.
@@ -22,7 +22,7 @@ pub fn symmetry(
     start: Option<&ContactState>,
 ) -> Symmetry {
     // The products of a line contact are too short for a mirror to save anything.
-    if grid.is_line() || is_twisted(case, start) {
+    if grid.dimension() == Dimension::Line || is_twisted(case, start) {
         return Symmetry::NONE;
     }
     let stretched = (0..2).any(|axis| is_stretched(case, axis, start));
@@ -56,7 +56,7 @@ pub fn symmetry(
 
 /// Whether bulk stresses move the surfaces along an axis (0: x, 1: y) against each other.
 pub fn is_stretched(case: &Case, axis: usize, start: Option<&ContactState>) -> bool {
-    let strains = BulkCompliance::of(&case.bodies, case.is_line());
+    let strains = BulkCompliance::of(&case.bodies, case.dimension());
     (0..2).flat_map(|body| (0..2).map(move |along| (body, along))).any(|(body, along)| {
         let starts = start.is_some_and(|state| state.bulk_stress[body][along] != 0.0);
         let mut controls = case.stages.iter().filter_map(|stage| stage.bulk_stress[body][along].as_ref());

@@ -9,7 +9,7 @@ use crate::kernel::{
     Components, PairResponse, ResponseTable, coefficients_of, influence_coefficients, line_coefficients_of,
     periodic_symbols, symbols_of,
 };
-use crate::model::ContactPair;
+use crate::model::{ContactPair, Dimension};
 use crate::plan::{Coupling, Plan, Simplification};
 
 /// How a pair answers tractions on the grid of a plan.
@@ -61,7 +61,7 @@ fn response(plan: &Plan, bodies: &ContactPair, wanted: Components) -> SurfaceRes
     let plain = plan.leave_out.takes(Simplification::LayeredResponse);
     let [width, depth] = plan.grid.size();
     let layered = || PairResponse::all_layers(bodies, width.max(depth));
-    if plan.grid.is_line() {
+    if plan.grid.dimension() == Dimension::Line {
         let datum = plan.datum.unwrap_or(width);
         let response = if plain { PairResponse::new(bodies) } else { layered() };
         let strips = case.cells[0];

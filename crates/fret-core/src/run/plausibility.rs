@@ -123,7 +123,7 @@ fn cells_per_wave(plan: &Plan) -> f64 {
 
 /// Largest strain of a body by its bulk stress along x or y, over the ends of stages, of half a wave and of all rows of a table.
 fn largest_bulk_strain(plan: &Plan) -> f64 {
-    let compliance = BulkCompliance::of(&plan.case.bodies, plan.case.is_line());
+    let compliance = BulkCompliance::of(&plan.case.bodies, plan.case.dimension());
     let largest = |path: &Path| match path {
         Path::To(stress) | Path::Wave { amplitude: stress, .. } => stress.abs(),
         Path::Through(stresses) => stresses.iter().fold(0.0_f64, |most, stress| most.max(stress.abs())),

@@ -11,6 +11,8 @@ pub struct OpenRim {
     width: f64,
     interior: f64,
     spacing: [f64; 2],
+    /// Side of a square of the area of a cell, width of a strip [length].
+    side: f64,
     /// Whether there is anything beyond the first and the last cell along each axis: not along a line contact, and not at a mirror.
     open_ends: [[bool; 2]; 2],
 }
@@ -19,19 +21,17 @@ impl OpenRim {
     /// Of contacts on a grid, whose mirrors lie before its first cells; for one body (0: lower, 1: upper).
     pub fn new(rule: &RimRule, body: usize, grid: &SurfaceGrid, symmetry: Symmetry) -> Self {
         let mirrored = symmetry.axes();
-        let open_ends =
-            [[!mirrored[0], true], if grid.is_line() { [false; 2] } else { [!mirrored[1], true] }];
-        Self { width: rule.width, interior: rule.interior[body], spacing: grid.spacing(), open_ends }
+        let (spacing, dimension) = (grid.spacing(), grid.dimension());
+        let open_ends = dimension.along(|axis| [!mirrored[axis], true], [false; 2]);
+        let side = dimension.cell_side(spacing);
+        Self { width: rule.width, interior: rule.interior[body], spacing, side, open_ends }
     }
 
     /// Wear coefficient in each cell over that at the rim: the mean over the cell of 1 within the width and of another number farther inside.
     pub fn factors(&self, pressure: &Array2<f64>) -> Array2<f64> {
-        let [dx, dy] = self.spacing;
-        let is_line = self.open_ends[1] == [false; 2];
-        let side = if is_line { dx } else { (dx * dy).sqrt() };
         self.squares_to_open(pressure).mapv(|square| {
             // Half a cell lies between the centre of the open cell and the rim.
-            let within = ((self.width - square.sqrt()) / side + 1.0).clamp(0.0, 1.0);
+            let within = ((self.width - square.sqrt()) / self.side + 1.0).clamp(0.0, 1.0);
             within + (1.0 - within) * self.interior
         })
     }

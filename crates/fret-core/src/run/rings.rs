@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::case::{Course, Path, Stage};
 use crate::history::{RING_CELLS, RING_FRACTION, RING_SHEAR, Regime, StepRecord, Warning};
-use crate::model::Shape;
+use crate::model::{Dimension, Shape};
 use crate::plan::{Coupling, Plan};
 
 /// Increments are advised with so much to spare: the advice holds where the contact grows a little less evenly than it is taken to.
@@ -28,7 +28,7 @@ struct Growth {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Rings {
     /// Whether the contact is a strip.
-    is_line: bool,
+    dimension: Dimension,
     /// Radius of a flat end, all of which touches at once [length].
     flat: f64,
     /// Stages whose increments are divided by the program, by a bound of their own on the error.
@@ -59,7 +59,7 @@ impl Rings {
         };
         let divided = plan.case.stages.iter().map(|stage| stage.history_tolerance.is_some()).collect();
         let may_touch = plan.case.start.is_some();
-        Self { is_line: plan.grid.is_line(), flat, divided, may_touch, ..Self::default() }
+        Self { dimension: plan.grid.dimension(), flat, divided, may_touch, ..Self::default() }
     }
 
     /// Reads an increment.
@@ -73,9 +73,7 @@ impl Rings {
             self.touching = 2; // of a contact from before nobody knows how it grew
         }
         self.read += 1;
-        let of_area =
-            |area: f64| if self.is_line { 0.5 * area } else { (area / std::f64::consts::PI).sqrt() };
-        let radius = of_area(record.contact_area).max(self.flat);
+        let radius = self.dimension.radius(record.contact_area).max(self.flat);
         self.touching += 1;
         let growth = |by: f64| Growth {
             by: by / record.parts.max(1) as f64,
@@ -105,8 +103,7 @@ impl Rings {
         if plan.coupling != Coupling::Coupled || !plan.case.profile.heights.is_empty() {
             return None;
         }
-        let [dx, dy] = plan.grid.spacing();
-        let cell = if self.is_line { dx } else { (dx * dy).sqrt() };
+        let cell = self.dimension.cell_side(plan.grid.spacing());
         let limit = (RING_CELLS * cell).max(RING_FRACTION * self.largest_radius);
         // A first increment that makes half the contact is a ring like any other.
         let first = self.first.filter(|first| first.by > 0.5 * self.largest_radius);
@@ -129,7 +126,10 @@ impl Rings {
         let (increments, ramp) = match stage.course {
             // Under a force that begins linearly the radius begins with its cube root: hardly any number is enough.
             Course::Linear if widest.early => {
-                let uneven = if self.is_line { 1.5 } else { 1.0 };
+                let uneven = match self.dimension {
+                    Dimension::Plane => 1.0,
+                    Dimension::Line => 1.5,
+                };
                 (uneven * self.largest_radius / limit, Some("cubic"))
             }
             // There it begins with the power 2/3: after the first contact it grows most in the second increment, by 2^(2/3) - 1 of the first.

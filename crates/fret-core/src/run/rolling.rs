@@ -48,7 +48,7 @@ impl Rolling {
             let cells = roll[axis] / self.grid.spacing()[axis];
             if (cells - cells.round()).abs() < ROUNDING { cells.round() } else { cells }
         };
-        [cells(0), if self.grid.is_line() { 0.0 } else { cells(1) }]
+        self.grid.dimension().along(cells, 0.0)
     }
 
     /// Cells from a state to a load; with the contact the grid moves by whole ones, whatever rounding has made of sums of lengths.

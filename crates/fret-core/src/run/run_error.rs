@@ -204,7 +204,7 @@ pub fn too_thin(case: &Case, place: &Place, reason: &str) -> RunError {
 /// What a solver's error means for increment `increment` of stage `stage` of a case.
 pub fn run_error(error: &SolveError, increment: usize, case: &Case, stage: usize) -> RunError {
     let (stage, tolerance) = (case.stages[stage].name.clone(), case.tolerance);
-    let unit = |kind: &str| Units::after(case.units.as_ref(), kind, case.is_line());
+    let unit = |kind: &str| Units::after(case.units.as_ref(), kind, case.dimension());
     match error.clone() {
         SolveError::NotConverged { reached, iterations } => RunError::NotConverged {
             increment,

@@ -195,7 +195,7 @@ impl<'a> Simulation<'a> {
             plan.leave_out.takes(Simplification::Region),
         )
         .with_shear_axis(plan.along)
-        .with_bulk(BulkCompliance::of(&case.bodies, case.is_line()))
+        .with_bulk(BulkCompliance::of(&case.bodies, case.dimension()))
         .with_rig(case.springs())
         .with_beyond(case.beyond)
         .with_symmetry(plan.symmetry);

@@ -6,7 +6,7 @@ use ndarray::Array2;
 
 use super::pair_compliance::PairCompliance;
 use crate::compliance::SurfaceResponse;
-use crate::model::SurfaceGrid;
+use crate::model::{Dimension, SurfaceGrid};
 use crate::plan::Plan;
 
 /// Waves of pressure between two wavelengths of which one is twice the other, of bodies that are looked at wave by wave.
@@ -20,7 +20,7 @@ const FIRST_ZERO: f64 = 2.404_825_557_695_773;
 pub struct StiffestWave {
     /// Area of the whole contact that a cell stands for [length^2].
     cell_area: f64,
-    is_line: bool,
+    dimension: Dimension,
     /// Whether waves run through: then all of the period has room for them.
     is_periodic: bool,
     /// Displacement by unit pressure that alternates from cell to cell [length/pressure].
@@ -59,18 +59,18 @@ impl StiffestWave {
         };
         let is_periodic = compliance.response.is_periodic();
         let alternating = compliance.response.alternating_normal();
-        Self { cell_area: grid.cell_area(), is_line: grid.is_line(), is_periodic, alternating, waves }
+        Self { cell_area: grid.cell_area(), dimension: grid.dimension(), is_periodic, alternating, waves }
     }
 
     /// Displacement [length/pressure] by the stiffest wave that the cells which wear have room for, those where `wear` is positive: in a circle
     /// of their area, in a strip as wide as they are together, or anywhere in a period.
     pub fn displacement(&self, wear: &Array2<f64>) -> f64 {
         let area = wear.iter().filter(|wear| **wear > 0.0).count() as f64 * self.cell_area;
-        let longest = match (self.is_periodic, self.is_line) {
+        let longest = match (self.is_periodic, self.dimension) {
             (true, _) => f64::INFINITY,
             // a line's cells are counted by their width
-            (false, true) => 2.0 * area,
-            (false, false) => TAU / FIRST_ZERO * (area / PI).sqrt(),
+            (false, Dimension::Line) => 2.0 * area,
+            (false, Dimension::Plane) => TAU / FIRST_ZERO * (area / PI).sqrt(),
         };
         let waves = self.waves.iter().filter(|[length, _]| *length <= longest);
         waves.fold(self.alternating, |least, [_, displacement]| least.min(*displacement))

@@ -131,7 +131,7 @@ pub fn layers_worn(
             ]);
         }
         let ends = ends?;
-        let radius = if plan.grid.is_line() { 0.5 * area } else { (area / std::f64::consts::PI).sqrt() };
+        let radius = plan.grid.dimension().radius(area);
         let compliance = |depths: [f64; 2]| {
             let left = thinned(&plan.case.bodies, depths).ok()?;
             Some(PairResponse::new(&left).times_k(1.0 / radius).zz)

@@ -1,6 +1,6 @@
 //! What a study teaches: which levels are worth their time, and what to choose for an accuracy.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::errors::between;
 use super::level::Level;
@@ -10,7 +10,7 @@ use super::resolutions::{Kind, Place, Resolutions};
 use crate::case::check::MOST_CELLS;
 
 /// Cells and increments for an accuracy of every quantity of interest.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Advice {
     /// The accuracy, relative.
     pub accuracy: f64,

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::level::Level;
 use super::quantities::{Quantity, StageQuantities};
 use super::reference::{NOTHING, Reference};
+use crate::model::Dimension;
 
 /// Errors below this are rounding, and show no order.
 const ROUNDING: f64 = 1e-12;
@@ -104,7 +105,7 @@ pub(super) fn extrapolated(fine: &StageQuantities, coarse: &StageQuantities, qua
     let value = fine.between(quantity);
     let factor = coarse.cell_area / fine.cell_area - 1.0;
     match quantity {
-        Quantity::MaxPressure | Quantity::Approach if factor > 0.0 && !fine.is_line => {
+        Quantity::MaxPressure | Quantity::Approach if factor > 0.0 && fine.dimension == Dimension::Plane => {
             let other = coarse.between(quantity);
             [0, 1].map(|axis| value[axis] + (value[axis] - other[axis]) / factor)
         }

@@ -11,7 +11,7 @@ use super::resolutions::{ResolutionError, only_one_grid};
 use super::unbounded::pressure_is_unbounded;
 use super::variation::{Variation, fewest};
 use crate::history::warning::CELLS_IN_RADIUS;
-use crate::model::{Integration, Shape};
+use crate::model::{Dimension, Integration, Shape};
 use crate::plan::{Coupling, Plan};
 
 /// Residual a companion is solved to at the least: far below what is estimated.
@@ -83,8 +83,7 @@ impl Bars {
 /// When the grid is too coarse to be halved, or the contact that is expected has too few cells, or the scene stands on its cells.
 pub fn companion(plan: &Plan) -> Result<Plan, ResolutionError> {
     only_one_grid(plan)?;
-    let least =
-        if plan.grid.is_line() { plan.case.cells[0] } else { *plan.case.cells.iter().min().unwrap_or(&0) };
+    let least = plan.grid.dimension().axes().map(|axis| plan.case.cells[axis]).min().unwrap_or(0);
     if least < FEWEST_CELLS {
         return Err(ResolutionError::TooCoarse(least, FEWEST_CELLS));
     }
@@ -149,8 +148,8 @@ struct Scene {
     is_coupled: bool,
     /// Something may stick and slip.
     has_friction: bool,
-    /// A line contact.
-    is_line: bool,
+    /// A line contact, or one with two axes.
+    dimension: Dimension,
     /// Increments of first order.
     by_end_points: bool,
 }
@@ -167,7 +166,7 @@ impl Scene {
             is_pointed: pressure_is_unbounded(shapes),
             is_coupled: plan.coupling == Coupling::Coupled,
             has_friction: plan.coupling != Coupling::Frictionless,
-            is_line: plan.grid.is_line(),
+            dimension: plan.grid.dimension(),
             by_end_points: plan.coupling == Coupling::Coupled
                 && plan.case.integration == Integration::EndPoint,
         }
@@ -194,13 +193,17 @@ impl Scene {
                 (value, Some(0.5 * END_OF_A_BODY * fine.contact_edge / area * largest))
             }
             Quantity::MaxPressure | Quantity::Approach
-                if self.is_smooth && !self.is_coupled && !self.is_line =>
+                if self.is_smooth && !self.is_coupled && self.dimension == Dimension::Plane =>
             {
                 (extrapolated(fine, coarse, quantity), Some(least.max(SECOND_ORDER * apart)))
             }
             Quantity::ContactArea => {
-                let edge = if self.is_line { EDGE_OF_LINE } else { EDGE };
-                (value, Some(if self.ends { END_OF_A_BODY } else { edge } * fine.contact_edge))
+                let edge = match self.dimension {
+                    _ if self.ends => END_OF_A_BODY,
+                    Dimension::Plane => EDGE,
+                    Dimension::Line => EDGE_OF_LINE,
+                };
+                (value, Some(edge * fine.contact_edge))
             }
             Quantity::StickArea => {
                 // What sticks may be a cell that no cell shows.

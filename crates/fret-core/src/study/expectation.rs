@@ -15,7 +15,7 @@ use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, Surf
 use crate::fields::largest;
 use crate::history::{CycleRecord, KeptFields, StepRecord, Work};
 use crate::kernel::{Components, InfluenceCoefficients, influence_coefficients, line_coefficients};
-use crate::model::MirroredState;
+use crate::model::{Dimension, MirroredState};
 use crate::plan::{Advance, Coupling, Plan};
 use crate::run::{Iteration, Observer, Simulation};
 
@@ -263,7 +263,7 @@ fn components(plan: &Plan) -> Components {
 fn table_seconds(plan: &Plan) -> f64 {
     let started = Instant::now();
     let (bodies, spacing) = (&plan.case.bodies, plan.grid.spacing());
-    let _ = if plan.grid.is_line() {
+    let _ = if plan.grid.dimension() == Dimension::Line {
         let datum = plan.datum.unwrap_or(plan.grid.size()[0]);
         line_coefficients(bodies, 2, spacing[0], datum, components(plan))
     } else {

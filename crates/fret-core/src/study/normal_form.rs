@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use super::radial_table::RadialTable;
 use crate::analytic::{Cone, EffectiveModuli, FlatPunch, Hertz, HertzEllipse, HertzLine, RoundedPunch};
 use crate::case::Case;
-use crate::model::{Body, ContactPair, Control, ElasticMaterial, Shape};
+use crate::model::{Body, ContactPair, Control, Dimension, ElasticMaterial, Shape};
 use crate::plan::Plan;
 
 /// An undeformed gap whose contact has a closed form; curvatures [1/length].
@@ -147,14 +147,14 @@ impl Gap {
         }
         if profile.shapes.iter().all(|shape| shape.curvatures().is_some()) {
             let [x, y] = profile.curvatures();
-            return match case.is_line() {
-                true if x > 0.0 => Some(Self::Cylinder(x)),
-                false if x > 0.0 && y > 0.0 => Some(Self::Paraboloid([x, y])),
+            return match case.dimension() {
+                Dimension::Line if x > 0.0 => Some(Self::Cylinder(x)),
+                Dimension::Plane if x > 0.0 && y > 0.0 => Some(Self::Paraboloid([x, y])),
                 _ => None,
             };
         }
         match profile.shapes[..] {
-            _ if case.is_line() => None,
+            _ if case.dimension() == Dimension::Line => None,
             [Shape::RoundedPunch { flat_radius, edge_radius }] => {
                 Some(Self::Rounded { flat_radius, edge_radius })
             }

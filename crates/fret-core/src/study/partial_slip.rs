@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_1_PI, PI};
 use super::normal_form::{NormalForm, Pressed};
 use crate::analytic::{CattaneoLine, HertzLine, LineHistory, TangentialHistory};
 use crate::case::Case;
-use crate::model::{BulkCompliance, Control};
+use crate::model::{BulkCompliance, Control, Dimension};
 use crate::plan::{Coupling, Plan};
 
 /// What acts at the end of an increment.
@@ -137,8 +137,8 @@ impl Strain {
         (history, along): (&[Loaded], &[f64]),
         nothing: f64,
     ) -> Option<Self> {
-        let is_line = case.is_line();
-        let compliance = BulkCompliance::of(&case.bodies, is_line);
+        let dimension = case.dimension();
+        let compliance = BulkCompliance::of(&case.bodies, dimension);
         let at = |loaded: &Loaded| compliance.relative_strain(loaded.bulk_stress);
         let strains: Vec<[f64; 2]> = history.iter().map(at).collect();
         let size = |strain: &[f64; 2]| strain[0].hypot(strain[1]);
@@ -150,7 +150,9 @@ impl Strain {
         if largest == 0.0 {
             return Some(Self { pairs: vec![[0.0; 2]; along.len()], per_force: 0.0, nothing: 0.0 });
         }
-        let across_axis = is_line && direction[1] == 0.0 && strains.iter().all(|strain| strain[1] == 0.0);
+        let across_axis = dimension == Dimension::Line
+            && direction[1] == 0.0
+            && strains.iter().all(|strain| strain[1] == 0.0);
         if !across_axis || along[row] == 0.0 {
             return None;
         }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::peak::peak_pressure_in_front;
 use crate::history::{StepRecord, faces_between};
-use crate::model::{ContactState, MirroredState, SurfaceGrid, Symmetry, Zone};
+use crate::model::{ContactState, Dimension, MirroredState, SurfaceGrid, Symmetry, Zone};
 
 /// A quantity of interest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -86,7 +86,8 @@ pub struct StageQuantities {
     /// Area of one cell [length^2]; of a line contact, of a unit of its length [length].
     pub cell_area: f64,
     /// Whether the contact is that of a line.
-    pub is_line: bool,
+    #[serde(rename = "is_line")]
+    pub dimension: Dimension,
     /// Cells in the contact radius; `None` for a contact without an edge.
     pub radius_cells: Option<f64>,
 }
@@ -113,7 +114,7 @@ impl StageQuantities {
             contact_edge: edge(|zone| *zone != Zone::Open),
             stick_edge: edge(|zone| *zone == Zone::Stick),
             cell_area: cell,
-            is_line: grid.is_line(),
+            dimension: grid.dimension(),
             radius_cells: record.footprint.radius,
         }
     }

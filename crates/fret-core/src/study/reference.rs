@@ -2,7 +2,7 @@
 //! its finest level.
 
 use ndarray::Array2;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::closed_form::ClosedForm;
 use super::level::Level;
@@ -10,7 +10,7 @@ use super::limit::{Heading, heading};
 use super::means;
 use super::quantities::{Quantity, StageQuantities};
 use super::resolutions::{Kind, Place, Resolutions};
-use crate::model::SurfaceGrid;
+use crate::model::{Dimension, SurfaceGrid};
 
 /// Quantities change by less than so many times the tolerance of the solver, relative, where refinement changes nothing.
 const NOISE: f64 = 10.0;
@@ -19,7 +19,7 @@ const NOISE: f64 = 10.0;
 pub(super) const NOTHING: f64 = 1e-9;
 
 /// Where a reference comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Source {
     /// A closed form.
@@ -33,7 +33,7 @@ pub enum Source {
 }
 
 /// What is known of the way a quantity approaches its limit in a study.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Convergence {
     /// With the order its levels show.
@@ -116,7 +116,8 @@ impl Reference {
             for (end, value) in values.iter_mut().enumerate() {
                 let Some(value) = value else { continue };
                 for (kind, counts, levels) in lines.iter().filter(|(kind, ..)| has_order(quantity, *kind)) {
-                    let order = known_order(quantity, *kind).filter(|_| !finest.grid.is_line());
+                    let order =
+                        known_order(quantity, *kind).filter(|_| finest.grid.dimension() == Dimension::Plane);
                     for (axis, part) in value.iter_mut().enumerate() {
                         let along: Vec<f64> = levels
                             .iter()

@@ -1,6 +1,6 @@
 //! A study of resolutions: each kind of refinement alone with the others at their finest, and cells and increments together.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::variation::{Variation, fewest, rows};
 use crate::case::check::{FEWEST_CELLS as FEWEST_OF_A_CASE, MOST_CELLS, MOST_CELLS_IN_ALL};
@@ -11,7 +11,7 @@ use crate::plan::{Coupling, Plan};
 const FEWEST_CELLS: usize = 8;
 
 /// What is refined along a line of levels.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// Cells, at the most increments and the least tolerance.
@@ -92,14 +92,17 @@ impl Resolutions {
             only_one_grid(plan)?;
         }
         let [nx, ny] = own.cells;
-        let is_line = plan.grid.is_line();
-        let across = |count: usize| {
-            if is_line { 1 } else { (count as f64 * ny as f64 / nx as f64).round().max(1.0) as usize }
+        let axes = plan.grid.dimension().axes();
+        let across = |count: usize| match axes.len() {
+            1 => 1,
+            _ => (count as f64 * ny as f64 / nx as f64).round().max(1.0) as usize,
         };
         let grids: Vec<[usize; 2]> = cells.iter().map(|count| [*count, across(*count)]).collect();
         for &[along, across] in &grids {
-            let sides = if is_line { [along; 2] } else { [along, across] };
-            if sides.iter().any(|side| !(FEWEST_OF_A_CASE..=MOST_CELLS).contains(side)) {
+            if [along, across][axes.clone()]
+                .iter()
+                .any(|side| !(FEWEST_OF_A_CASE..=MOST_CELLS).contains(side))
+            {
                 return Err(ResolutionError::Cells(along, across));
             }
             if along * across > MOST_CELLS_IN_ALL {

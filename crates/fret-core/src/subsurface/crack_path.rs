@@ -6,7 +6,7 @@ use super::edge_crack::STEEPEST;
 use super::severity::MostSevere;
 use super::survey::{LoadedSurface, survey};
 use super::tensor::StressTensor;
-use crate::model::{HalfSpace, SurfaceGrid};
+use crate::model::{Dimension, HalfSpace, SurfaceGrid};
 use fret_fft::ConvolutionError;
 
 /// Depths at which the stress along a crack is computed, denser towards the surface; interfaces besides.
@@ -53,11 +53,14 @@ impl CrackStart {
     ///
     /// # Errors
     /// Without tension, or where the plane leaves the normal of the surface by more than [`STEEPEST`].
-    pub fn of(severe: &MostSevere, is_line: bool) -> Result<Self, NoCrack> {
+    pub fn of(severe: &MostSevere, dimension: Dimension) -> Result<Self, NoCrack> {
         let Some([x, y, z]) = severe.normal.filter(|_| severe.value > 0.0) else {
             return Err(NoCrack::NoTension);
         };
-        let (across, towards) = if is_line { (x.abs(), [x, 0.0]) } else { (x.hypot(y), [x, y]) };
+        let (across, towards) = match dimension {
+            Dimension::Plane => (x.hypot(y), [x, y]),
+            Dimension::Line => (x.abs(), [x, 0.0]),
+        };
         let angle = (-z).atan2(across);
         if angle.is_nan() || angle.abs() > STEEPEST {
             return Err(NoCrack::TooInclined(angle.abs().to_degrees()));
@@ -170,14 +173,17 @@ mod tests {
         let (s, c) = 0.4_f64.sin_cos();
         for sign in [1.0, -1.0] {
             // the direction (sin, 0, cos) lies in the plane with the normal (cos, 0, -sin)
-            let start = CrackStart::of(&severe([sign * c, 0.0, -sign * s], 1.0), true).unwrap();
+            let start = CrackStart::of(&severe([sign * c, 0.0, -sign * s], 1.0), Dimension::Line).unwrap();
             assert!((start.angle - 0.4).abs() < 1e-15 && start.horizontal == [1.0, 0.0]);
             assert_eq!(start.place, [7.5, 3.0]);
-            let turned = CrackStart::of(&severe([0.0, -sign * c, -sign * s], 1.0), false).unwrap();
+            let turned = CrackStart::of(&severe([0.0, -sign * c, -sign * s], 1.0), Dimension::Plane).unwrap();
             assert!((turned.angle + 0.4).abs() < 1e-15 && turned.horizontal == [0.0, 1.0]);
         }
-        assert_eq!(CrackStart::of(&severe([1.0, 0.0, 0.0], 0.0), true), Err(NoCrack::NoTension));
-        assert!(matches!(CrackStart::of(&severe([0.1, 0.0, 0.99], 1.0), true), Err(NoCrack::TooInclined(_))));
+        assert_eq!(CrackStart::of(&severe([1.0, 0.0, 0.0], 0.0), Dimension::Line), Err(NoCrack::NoTension));
+        assert!(matches!(
+            CrackStart::of(&severe([0.1, 0.0, 0.99], 1.0), Dimension::Line),
+            Err(NoCrack::TooInclined(_))
+        ));
     }
 
     #[test]

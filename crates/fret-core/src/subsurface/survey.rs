@@ -7,7 +7,7 @@ use super::depths::DepthPoint;
 use super::even::EvenStress;
 use super::operator::{DepthOperator, Tractions};
 use super::tensor::StressField;
-use crate::model::{HalfSpace, SurfaceGrid};
+use crate::model::{Dimension, HalfSpace, SurfaceGrid};
 use fret_fft::ConvolutionError;
 
 /// What acts on the surface of the body in one increment, shape `(nx, ny)`.
@@ -40,7 +40,7 @@ pub fn displacements(
     tractions: &Tractions<'_>,
     mut visit: impl FnMut(usize, [Array2<f64>; 3]),
 ) -> Result<(), ConvolutionError> {
-    assert!(!grid.is_line(), "displacements of a line contact need a datum");
+    assert!(grid.dimension() == Dimension::Plane, "displacements of a line contact need a datum");
     let Some(&first) = points.first() else { return Ok(()) };
     let with_shear = tractions.shear.is_some();
     let mut operator = DepthOperator::new(half_space, first, grid, periodic, with_shear, true)?;
@@ -83,7 +83,7 @@ pub fn survey(
                 None => [none.view(), none.view()],
             });
             operator.stress_into(&Tractions { pressure: surface.pressure.view(), shear }, &mut field);
-            field.add(surface.even.at(half_space, point, grid.is_line()));
+            field.add(surface.even.at(half_space, point, grid.dimension()));
             if !visit(number, index, &field) {
                 return Ok(());
             }

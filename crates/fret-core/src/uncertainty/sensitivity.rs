@@ -1,14 +1,21 @@
 //! Which uncertain number makes a result uncertain: Sobol' indices from the blocks of a [`SampleDesign`](super::SampleDesign).
 
-use serde::Serialize;
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// Sobol' indices of one uncertain number.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Sensitivity {
     /// First order: the fraction of the variance that knowing this number would take away [-].
+    #[serde(deserialize_with = "or_none")]
     pub first: f64,
     /// Total: the fraction that would be left if all other numbers were known [-], with all interactions.
+    #[serde(deserialize_with = "or_none")]
     pub total: f64,
+}
+
+/// What is no number, of a variance beyond all numbers, files have as nothing.
+fn or_none<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
 }
 
 /// Sobol' indices of a result, one a number, from its values in the rows of a design of `count` samples with blocks for indices. A

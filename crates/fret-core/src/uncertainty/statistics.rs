@@ -1,57 +1,88 @@
 //! Mean, standard deviation and quantiles of samples.
 
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// Fractions below the quantiles that are told.
 pub const QUANTILES: [f64; 5] = [0.025, 0.25, 0.5, 0.75, 0.975];
 
 /// What samples of a number have in common. A sample without bound, an endless life, is larger than any other: the mean is infinite then, there is no
 /// deviation, and quantiles are what they are.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
     /// Samples that count.
     pub count: usize,
     /// Mean.
-    #[serde(serialize_with = "bounded")]
+    #[serde(with = "bounded")]
     pub mean: f64,
     /// Standard deviation of the distribution that was sampled (divisor n - 1); not a number where a sample is infinite.
+    #[serde(with = "bounded")]
     pub deviation: f64,
     /// Smallest value.
-    #[serde(serialize_with = "bounded")]
+    #[serde(with = "bounded")]
     pub min: f64,
     /// Largest value.
-    #[serde(serialize_with = "bounded")]
+    #[serde(with = "bounded")]
     pub max: f64,
     /// Values below which lie the fractions [`QUANTILES`], linear between samples.
-    #[serde(serialize_with = "each_bounded")]
+    #[serde(serialize_with = "each_bounded", deserialize_with = "each_read")]
     pub quantiles: [f64; 5],
 }
 
-/// A number as files have it: those beyond all bounds as the words that programs read as such.
-#[derive(Serialize)]
+impl Statistics {
+    /// Whether the number varies by more than `rounding`, relative; what is endless in some samples has no deviation, and varies.
+    pub fn varies(&self, rounding: f64) -> bool {
+        let Self { deviation, min, max, .. } = self;
+        *deviation > rounding * min.abs().max(max.abs()) || min < max && (max - min).is_infinite()
+    }
+}
+
+/// A number as files have it: those beyond all bounds as the words that programs read as such, what is no number as nothing.
+#[derive(Serialize, Deserialize)]
 #[serde(untagged)]
 enum Written {
     Number(f64),
-    Word(&'static str),
+    Word(String),
+    Nothing,
 }
 
 impl Written {
     fn of(value: f64) -> Self {
         match value {
-            f64::INFINITY => Self::Word("inf"),
-            f64::NEG_INFINITY => Self::Word("-inf"),
+            f64::INFINITY => Self::Word("inf".to_owned()),
+            f64::NEG_INFINITY => Self::Word("-inf".to_owned()),
+            value if value.is_nan() => Self::Nothing,
             value => Self::Number(value),
+        }
+    }
+
+    fn number(self) -> f64 {
+        match self {
+            Self::Number(value) => value,
+            Self::Word(word) => word.parse().unwrap_or(f64::NAN),
+            Self::Nothing => f64::NAN,
         }
     }
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
-fn bounded<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-    Written::of(*value).serialize(serializer)
+mod bounded {
+    use super::{Deserialize, Deserializer, Serialize, Serializer, Written};
+
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+    pub fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+        Written::of(*value).serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+        Ok(Written::deserialize(deserializer)?.number())
+    }
 }
 
 fn each_bounded<S: Serializer>(values: &[f64; 5], serializer: S) -> Result<S::Ok, S::Error> {
     values.map(Written::of).serialize(serializer)
+}
+
+fn each_read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 5], D::Error> {
+    Ok(<[Written; 5]>::deserialize(deserializer)?.map(Written::number))
 }
 
 /// Statistics of samples; those that are no numbers do not count. `None` of fewer than two.
@@ -122,5 +153,8 @@ mod tests {
         assert_eq!(written["mean"], "inf");
         assert_eq!(written["quantiles"], serde_json::json!([1.0, 3.0, 5.5, "inf", "inf"]));
         assert!(written["deviation"].is_null());
+        let read: Statistics = serde_json::from_value(written).unwrap();
+        assert_eq!((read.mean, read.quantiles), (found.mean, found.quantiles));
+        assert!(read.deviation.is_nan());
     }
 }

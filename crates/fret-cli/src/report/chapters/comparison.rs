@@ -1,6 +1,6 @@
 //! Numbers against closed forms.
 
-use fret_core::model::Control;
+use fret_core::model::{Control, Dimension};
 use fret_core::plan::Coupling;
 use fret_core::study::PartialSlip;
 use maud::{Markup, html};
@@ -12,7 +12,7 @@ use crate::report::overview::Overview;
 pub fn comparison(view: &Overview<'_>) -> Markup {
     let Some(form) = &view.normal_form else { return html! {} };
     let history = &view.results.table;
-    let is_line = view.results.fields.is_line();
+    let dimension = view.dimension();
     let mut rows = Vec::new();
     let mut add = |place: String, what: &str, kind: &str, computed: f64, exact: f64| {
         let numbers = [view.number(computed, kind), view.number(exact, kind), deviation(computed, exact)];
@@ -25,8 +25,8 @@ pub fn comparison(view: &Overview<'_>) -> Markup {
             if let Some(peak) = pressed.peak() {
                 add(name(), "max pressure", "pressure", history.at("max_pressure", row), peak);
             }
-            let area = if is_line { "contact width" } else { "contact area" };
-            add(name(), area, "length^2", history.at("contact_area", row), pressed.area());
+            let area = format!("contact {}", dimension.area());
+            add(name(), &area, "length^2", history.at("contact_area", row), pressed.area());
             if let Some(approach) = pressed.approach() {
                 add(name(), "approach", "length", history.at("approach", row), approach);
             }
@@ -41,11 +41,12 @@ pub fn comparison(view: &Overview<'_>) -> Markup {
                 add(view.called(row), "displacement", "length", view.shift[row], shift);
             }
             let areas = [history.at("stick_area", row), after.stick_area()];
-            if is_line {
-                add(view.called(row), "width of stick", "length^2", areas[0], areas[1]);
-            } else {
-                let [stuck, exact] = areas.map(|area| (area / std::f64::consts::PI).sqrt());
-                add(view.called(row), "radius of stick", "length", stuck, exact);
+            match dimension {
+                Dimension::Plane => {
+                    let [stuck, exact] = areas.map(|area| dimension.radius(area));
+                    add(view.called(row), "radius of stick", "length", stuck, exact);
+                }
+                Dimension::Line => add(view.called(row), "width of stick", "length^2", areas[0], areas[1]),
             }
         }
     }
@@ -70,8 +71,7 @@ fn words(view: &Overview<'_>, coupling: f64) -> Markup {
     let history = &view.results.table;
     let [dx, _] = view.results.fields.spacing();
     let last = history.rows().saturating_sub(1);
-    let area = history.at("contact_area", last);
-    let width = if view.results.fields.is_line() { area } else { 2.0 * (area / std::f64::consts::PI).sqrt() };
+    let width = 2.0 * view.dimension().radius(history.at("contact_area", last));
     let cells = width / dx;
     html! {
         (format!("The contact is {cells:.0} cells wide at the end; its edge is known to about half a cell."))

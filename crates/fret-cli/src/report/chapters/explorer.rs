@@ -1,6 +1,7 @@
 //! The history as it moves: loop, sections and maps of an increment, and a slider that goes through the kept ones. Without scripts
 //! the increment of the largest load stands there.
 
+use fret_core::model::Dimension;
 use maud::{Markup, PreEscaped, html};
 use serde_json::{Value, json};
 
@@ -190,8 +191,11 @@ impl Ground<'_> {
         };
         let (x, y) = (edges(&fields.x, 0, dx), edges(&fields.y, 1, dy));
         // A line contact is the same all along y, and its sections tell all.
-        let is_line = fields.is_line();
-        let y_label = if is_line { Label::plain("") } else { self.view.label("y", "length") };
+        let dimension = self.view.dimension();
+        let y_label = match dimension {
+            Dimension::Plane => self.view.label("y", "length"),
+            Dimension::Line => Label::plain(""),
+        };
         let map_of = |place: usize, what: &str, bar: Option<&str>, most: f64| Map {
             what: what.to_owned(),
             width: WIDTH,
@@ -216,7 +220,7 @@ impl Ground<'_> {
         if self.has_zones {
             add("stick and slip", None, 0.0, legend(), "What each cell did in the increment.")?;
         }
-        if is_line {
+        if dimension == Dimension::Line {
             return Ok(figures);
         }
         add("pressure", Some("pressure"), self.most[0], html! {}, "Contact pressure.")?;

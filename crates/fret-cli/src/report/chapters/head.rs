@@ -1,6 +1,7 @@
 //! The run at a glance: title, how it ended, its most telling numbers, what about them may mislead.
 
 use fret_core::history::WornTo;
+use fret_core::model::Dimension;
 use fret_core::study::pressure_is_unbounded;
 use maud::{Markup, html};
 
@@ -62,7 +63,10 @@ fn cards(view: &Overview<'_>) -> Vec<(&'static str, String)> {
     let table = &view.results.table;
     let Some(last) = table.rows().checked_sub(1) else { return Vec::new() };
     let largest = |name: &str| table.column(name).iter().copied().fold(0.0, f64::max);
-    let area = if view.results.fields.is_line() { "max contact width" } else { "max contact area" };
+    let area = match view.dimension() {
+        Dimension::Plane => "max contact area",
+        Dimension::Line => "max contact width",
+    };
     let case = view.results.case();
     let pressure = if pressure_is_unbounded(&case.profile.shapes) {
         "max pressure (no limit: it grows with the number of cells)"

@@ -2,8 +2,8 @@
 
 use fret_core::case::{Course, Path, Stage, StageControl};
 use fret_core::model::{
-    Base, Body, CellValues, Coating, CoulombFriction, ElasticMaterial, EvolutionDriver, EvolutionLaw,
-    HeightsSummary, MapSummary, Profile, WearLaw, WearRule,
+    Base, Body, CellValues, Coating, CoulombFriction, Dimension, ElasticMaterial, EvolutionDriver,
+    EvolutionLaw, HeightsSummary, MapSummary, Profile, WearLaw, WearRule,
 };
 use fret_core::plan::Coupling;
 use maud::{Markup, html};
@@ -28,10 +28,11 @@ pub fn question(view: &Overview<'_>) -> Markup {
     let [nx, ny] = view.results.fields.cells();
     let [dx, dy] = view.results.fields.spacing().map(|side| view.number(side, "length"));
     let repeats = if case.periodic { ", periodic in x and y" } else { "" };
-    rows.push(if view.results.fields.is_line() {
-        ("line contact".to_owned(), words(&format!("{nx} cells of {dx}; loads per unit length")))
-    } else {
-        ("grid".to_owned(), words(&format!("{nx} × {ny} cells of {dx} × {dy}{repeats}")))
+    rows.push(match view.dimension() {
+        Dimension::Plane => ("grid".to_owned(), words(&format!("{nx} × {ny} cells of {dx} × {dy}{repeats}"))),
+        Dimension::Line => {
+            ("line contact".to_owned(), words(&format!("{nx} cells of {dx}; loads per unit length")))
+        }
     });
     if let Some(datum) = plan.datum {
         let depth = view.number(datum, "length");

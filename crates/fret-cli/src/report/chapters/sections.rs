@@ -1,6 +1,6 @@
 //! Pressure and shear along a line through the middle of the contact.
 
-use fret_core::model::Control;
+use fret_core::model::{Control, Dimension};
 use maud::{Markup, html};
 
 use crate::drawing::chart::{Chart, Curve, Stroke};
@@ -170,7 +170,10 @@ fn shear_section(view: &Overview<'_>, section: &Section) -> Result<Markup, Failu
     let chart = Chart::new("shear along a line through the contact", axes, curves);
     let first = format!("{}{}", name[..1].to_uppercase(), &name[1..]);
     let mut caption = if has_form {
-        let works = if fields.is_line() { "Cattaneo" } else { "Cattaneo, Mindlin and Deresiewicz" };
+        let works = match view.dimension() {
+            Dimension::Plane => "Cattaneo, Mindlin and Deresiewicz",
+            Dimension::Line => "Cattaneo",
+        };
         format!("{first}: dots cell by cell, dashed the closed form ({works}).")
     } else {
         format!("{first}.")

@@ -1,5 +1,6 @@
 //! Maps of stick and slip through the history.
 
+use fret_core::model::Dimension;
 use maud::{Markup, html};
 
 use crate::drawing::raster::{Raster, pixels_for};
@@ -30,7 +31,10 @@ pub fn zones(view: &Overview<'_>) -> Result<Markup, Failure> {
     }
     let (_, cells) = window.cells();
     let [dx, dy] = fields.spacing();
-    let ratio = if fields.is_line() { BAR } else { cells[0] as f64 * dx / (cells[1] as f64 * dy) };
+    let ratio = match view.dimension() {
+        Dimension::Plane => cells[0] as f64 * dx / (cells[1] as f64 * dy),
+        Dimension::Line => BAR,
+    };
     let mut drawn = Vec::new();
     for (&position, field) in chosen.iter().zip(&maps) {
         drawn.push((view.called(fields.steps[position]), image(field, &window)?));

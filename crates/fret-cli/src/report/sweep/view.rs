@@ -13,7 +13,7 @@ use crate::figures::unit_of;
 use crate::report::html::{given, number};
 use crate::sweep::columns::{SummaryColumn, columns};
 use crate::sweep::record::PointOfSweep;
-use crate::sweep::{Answer, Kept, POINTS, RECORD, SweepRecord, UNCERTAINTY};
+use crate::sweep::{Answer, Kept, POINTS, RECORD, SpreadRecord, SweepRecord, UNCERTAINTY};
 
 /// Ends of keys that are known to have a unit.
 const KINDS: [(&str, &str); 16] = [
@@ -46,7 +46,7 @@ pub struct View {
     /// Numbers of the answers.
     pub columns: Vec<SummaryColumn>,
     /// What the samples say, where there are some.
-    pub uncertainty: Option<Value>,
+    pub uncertainty: Option<SpreadRecord>,
 }
 
 impl View {
@@ -142,7 +142,7 @@ impl View {
 
     /// The unit of a kind of quantity, where the cases declare units.
     pub fn unit(&self, kind: &str) -> Option<String> {
-        unit_of(self.record.units.as_ref(), kind, self.record.is_line)
+        unit_of(self.record.units.as_ref(), kind, self.record.dimension)
     }
 
     /// The name of a column as an axis.

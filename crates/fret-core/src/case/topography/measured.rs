@@ -11,7 +11,7 @@ use crate::case::judge::Judge;
 use crate::case::known_units::{conversion, known_units};
 use crate::case::numbers::Head;
 use crate::case::points;
-use crate::model::Axis;
+use crate::model::{Axis, Dimension};
 
 impl Question<'_> {
     /// Heights of a scan; `unit` and `rows` were given for them.
@@ -97,8 +97,12 @@ impl Question<'_> {
                 "leave channel out",
             );
         }
-        let is_line = self.cells.count[1] == 1;
-        let places = if array.ncols() == 3 { 2 } else { usize::from(is_line && array.ncols() == 2) };
+        let dimension = Dimension::of(self.cells.count);
+        let places = if array.ncols() == 3 {
+            2
+        } else {
+            usize::from(dimension == Dimension::Line && array.ncols() == 2)
+        };
         if array.columns().into_iter().take(places).flatten().any(|place| !place.is_finite())
             && array.nrows() > 3
         {
@@ -109,10 +113,13 @@ impl Question<'_> {
             );
         }
         let given = self.given_size(judge)?.or(Self::size_of_head(judge, head, layout.rows));
-        if is_line && array.ncols() == 2 && array.nrows() > 3 && points::own_cells(&array.view()).is_none() {
+        if (dimension, array.ncols()) == (Dimension::Line, 2)
+            && array.nrows() > 3
+            && points::own_cells(&array.view()).is_none()
+        {
             return self.uneven(judge, &array, given, layout.unit);
         }
-        if is_line && array.ncols() == 3 {
+        if (dimension, array.ncols()) == (Dimension::Line, 3) {
             return self.refuse(
                 judge,
                 "three columns, in a line contact",
@@ -136,8 +143,7 @@ impl Question<'_> {
                 [0, 1].map(|axis| spacing[axis].or(spacing[0]).unwrap_or_default() * own[axis] as f64);
             let fits = |unit: f64| {
                 given.is_none_or(|given| {
-                    (0..if is_line { 1 } else { 2 })
-                        .all(|axis| (own_size[axis] * unit / given[axis] - 1.0).abs() < SPACING)
+                    dimension.axes().all(|axis| (own_size[axis] * unit / given[axis] - 1.0).abs() < SPACING)
                 })
             };
             let unit = match (fits(1.0), fits(layout.unit)) {
@@ -163,7 +169,7 @@ impl Question<'_> {
             Axis::X => array.as_standard_layout().into_owned(),
             Axis::Y => array.reversed_axes().as_standard_layout().into_owned(),
         };
-        if is_line && heights.nrows() == 1 {
+        if (dimension, heights.nrows()) == (Dimension::Line, 1) {
             heights = heights.reversed_axes().as_standard_layout().into_owned();
         }
         let heights = without_marks(heights).mapv(|height| height * layout.unit);
@@ -218,12 +224,15 @@ impl Question<'_> {
     #[expect(clippy::option_option, reason = "the outer `None` is a refusal, as everywhere here")]
     fn given_size(&self, judge: &mut Judge) -> Option<Option<[f64; 2]>> {
         let Some(given) = &self.keys.size else { return Some(None) };
-        let is_line = self.cells.count[1] == 1;
-        let size = match given.value {
-            ScanSizeFile::Sides(sides) if !is_line => sides,
-            ScanSizeFile::Line(length) if is_line => [length; 2],
-            _ => {
-                let help = if is_line { "size = length of the line scan" } else { "size = [x, y]" };
+        let dimension = Dimension::of(self.cells.count);
+        let size = match (given.value, dimension) {
+            (ScanSizeFile::Sides(sides), Dimension::Plane) => sides,
+            (ScanSizeFile::Line(length), Dimension::Line) => [length; 2],
+            (_, dimension) => {
+                let help = match dimension {
+                    Dimension::Plane => "size = [x, y]",
+                    Dimension::Line => "size = length of the line scan",
+                };
                 let message = format!("{}.size: of a surface two lengths, of a line scan one", self.place);
                 return judge.refuse(given.span(), message, help);
             }
