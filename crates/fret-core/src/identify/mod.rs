@@ -3,7 +3,7 @@
 //! From the ground: `request` and `error`; `log` (which columns there are); `turns` of a signal,
 //! `cycles` (which are whole), `direction`, `drift`; `computed` (a loop between its points), `model` (the loop that the solver computes),
 //! `flanks`, `quantities` (what is read from a cycle); `start`, `intervals`, `fit` (least squares), `found`; the answer in
-//! `identification`.
+//! `identification`. Beside it `pressing` (the curve of an indenter) and `indentation` (a number of the case fitted to a measured one).
 
 mod computed;
 mod cycles;
@@ -14,9 +14,11 @@ mod fit;
 mod flanks;
 mod found;
 mod identification;
+mod indentation;
 mod intervals;
 mod log;
 mod model;
+mod pressing;
 mod quantities;
 mod request;
 mod start;
@@ -29,5 +31,6 @@ pub use direction::Direction;
 pub use error::IdentifyError;
 pub use found::Constant;
 pub use identification::{Cycle, Identification, Removed, identify};
+pub use indentation::{Indentation, indentation};
 pub use quantities::Quantities;
 pub use request::{Key, Request};
