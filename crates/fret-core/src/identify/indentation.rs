@@ -1,330 +1,263 @@
-//! A modulus or a thickness from a measured indentation: load over depth, laid by least squares through the curve of the solver.
+//! Numbers of a case from a measured indentation: load over depth, laid by least squares through the curve of the solver.
 //!
-//! One number of the case is fitted, and the depth at which the indenter touches, which no instrument knows. A point's residual is the
-//! difference of loads over `sqrt(s_P^2 + (s_d dP/dd)^2)`, the noise of load and depth that the columns show from row to row. Intervals
-//! are those of `intervals`: linear about the solution, with noise of both kinds and the correlation of neighbours; the error of the grid is not in them.
-
-use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
-use nalgebra::storage::Owned;
-use nalgebra::{DMatrix, DVector, Dyn};
+//! The numbers are moduli, thicknesses and others of bodies and profile; besides, the depth at which the indenter touches, which no instrument
+//! knows, and the compliance of its frame. Intervals are those of `intervals`: linear about the solution, with noise of load and depth and the
+//! correlation of neighbours; the error of the grid is not in them.
 
 use super::error::{IdentifyError, refused};
 use super::found::{Constant, TOLD};
-use super::intervals::{Left, Sureness, sureness};
-use super::pressing::{Curve, Indenter};
-use super::request::{Key, Request};
-use super::turns::{noise, range};
+use super::indentation_fit::{FARTHEST, Fit, Known, fit};
+use super::indentation_log::Curves;
+use super::indentation_request::{IndentationRequest, Numbers, Part};
+use super::indenter::{Indenter, Pressing};
+use super::intervals::Sureness;
+use super::turns::noise as from_row_to_row;
 use crate::case::{Case, Units};
-use crate::measured::{Kind, Role, Table, read, scales};
 
-/// Depth of the indenter, and load, among the roles.
-const DEPTH: usize = 0;
-const LOAD: usize = 1;
-
-/// What the columns of an indentation can hold.
-static ROLES: [Role; 2] = [
-    Role {
-        name: "depth",
-        known: &["depth", "displacement", "indentation", "penetration", "h", "tiefe", "eindringtiefe", "weg"],
-        is_needed: true,
-        kind: Kind::Length,
-        example: "depth",
-    },
-    Role {
-        name: "force",
-        known: &[
-            "force",
-            "load",
-            "normal_force",
-            "p",
-            "f",
-            "fn",
-            "kraft",
-            "last",
-            "normalkraft",
-            "prüfkraft",
-        ],
-        is_needed: true,
-        kind: Kind::Force,
-        example: "load",
-    },
-];
-
-/// Rows, at the least.
-const FEWEST_ROWS: usize = 12;
-/// The indenter touches about where the load passes this part of the largest one.
-const TOUCHES: f64 = 0.02;
-/// Curves go so far beyond the largest depth from there.
-const BEYOND: f64 = 1.15;
-/// Noise below this part of the range does not count: what a curve is off is more.
-const QUIET: f64 = 1e-4;
-/// The noise of one signal over that of the other, relative to the ranges, at the most.
-const UNEQUAL: f64 = 4.0;
-/// Rounds in which the weights of the points follow the solution.
-const ROUNDS: usize = 3;
-/// Step of the difference by which the derivative by the value is found, relative.
-const STEP: f64 = 5e-3;
-/// Residual of every point beside a curve that cannot be solved: more than any other.
-const UNSOLVED: f64 = 1e6;
-/// The logarithm of the value does not go farther than this from its start.
-const FARTHEST: f64 = 7.0;
 /// Points of the computed curve.
 const POINTS_OF_CURVE: usize = 60;
+/// Loading and unloading differ from so many standard deviations of their difference and this part of the largest load on.
+const DIFFER: (f64, f64) = (4.0, 0.005);
+/// A load below zero of more than this part of the largest is adhesion.
+const PULLS: f64 = 0.03;
+/// Points lie off the curve by more than noise from this part of the largest load on.
+const OFF: f64 = 0.05;
 
 /// What an indentation tells; lengths and forces in the units of the case.
 #[derive(Debug, Clone)]
 pub struct Indentation {
-    /// The name of the log.
+    /// The name of the file.
     pub log: String,
     /// Units of all numbers; metres and newtons where the case names none.
     pub units: Units,
-    /// The number of the case, and the depth at which the indenter touches.
-    pub constants: [Constant; 2],
-    /// Standard deviation of the points about the computed curve, over the largest load.
+    /// Whether the case or the file names units.
+    pub has_units: bool,
+    /// Which part was fitted.
+    pub part: Part,
+    /// The numbers of the case; then `depth at first touch` and `frame compliance`, where they are fitted.
+    pub constants: Vec<Constant>,
+    /// By how much each of them differs on half of the cells along each side, in its unit: a sign of what the grid does, which is not in the
+    /// intervals, and no bound of it. `None` where that is not solved.
+    pub grid: Option<Vec<f64>>,
+    /// The depth at which the indenter touches.
+    pub touch: f64,
+    /// Compliance of the frame [length/force].
+    pub frame: f64,
+    /// Standard deviation of the loads about the computed curve, over the largest load.
     pub noise: f64,
-    /// Depth from where the indenter touches, and load, as measured, with the computed load at that depth.
+    /// Correlation of the residuals of neighbouring points, where it is more than chance.
+    pub correlation: f64,
+    /// How many indentations the solver computed.
+    pub histories: usize,
+    /// Depth from the touch on, measured load, and computed load at that depth, row by row of what was fitted.
     pub points: Vec<[f64; 3]>,
-    /// The computed curve.
-    pub computed: Vec<[f64; 2]>,
+    /// Line of every point in the file.
+    pub lines: Vec<usize>,
+    /// The computed curve: depth from the touch on, load, and depth of the contact itself, without the frame.
+    pub computed: Vec<[f64; 3]>,
     /// Rows without a number that were skipped: their lines and what is wrong there.
     pub bad_rows: Vec<String>,
     /// What the data cannot tell, and what was assumed.
     pub notes: Vec<String>,
 }
 
-/// Fits a number of a case, and where the indenter touches, to a measured indentation, whose name and bytes are given.
+/// Fits numbers of a case to a measured indentation, whose name and bytes are given.
 ///
 /// # Errors
-/// When the log cannot be read as load over depth, or the case cannot be solved.
+/// When the file cannot be read as load over depth, or the case cannot be solved.
 pub fn indentation(
     (name, bytes): (&str, &[u8]),
-    case: Case,
-    key: Key<'_>,
-    request: &Request,
+    case: &Case,
+    numbers: &Numbers<'_>,
+    request: &IndentationRequest,
 ) -> Result<Indentation, IdentifyError> {
-    let table = read((name, bytes), (&ROLES, "log"), &request.asked, request.strict)?;
+    let curves = Curves::read((name, bytes), case.units.as_ref(), request)?;
+    let known = Known { touch: request.touch, frame: case.springs().normal, fits_frame: request.frame };
+    let indenter = Indenter::new(case, numbers)?;
+    let start: Vec<f64> = numbers.keys.iter().map(|(_, value)| *value).collect();
+    let mut fit = fit(name, indenter, &start, [&curves.depths, &curves.loads], known)?;
+    let coarser = fit.coarser();
     let mut notes = Vec::new();
-    let scale = scales(&table, (&ROLES, &request.asked), case.units.as_ref(), &mut notes)?;
+    for warning in fit.indenter.warnings(&fit.values())? {
+        notes.push(warning.message);
+    }
+    let names: Vec<&str> = numbers.keys.iter().map(|(name, _)| name.as_str()).collect();
     let units = case.units.clone().unwrap_or_else(|| Units::new("m", "N"));
-    let [depths, loads] = pressed(&table, [scale[DEPTH], scale[LOAD]], name)?;
-    let [_, most] = range(&loads);
-    // Where it touches, for a start: the last row before the load stays above a little of the largest.
-    let touches = loads.iter().position(|load| *load > TOUCHES * most).unwrap_or(0);
-    let [_, deepest] = range(&depths);
-    let start = depths[touches.saturating_sub(1)];
-    let indenter = Indenter::new(case, key, BEYOND * (deepest - start))?;
-    let mut fit = Fit::new(&indenter, [&depths, &loads], start)?;
-    for _ in 0..ROUNDS {
-        fit.weigh();
-        let (found, report) =
-            LevenbergMarquardt::new().with_ftol(1e-9).with_xtol(1e-7).with_patience(8).minimize(fit);
-        fit = found;
-        if fit.now.is_none() || matches!(report.termination, TerminationReason::User(_)) {
-            let what = format!(
-                "no curve of the case comes near the measured one: {} = {:.3e} cannot be solved",
-                key.name,
-                fit.value()
-            );
-            return Err(refused(
-                name,
-                &what,
-                "compare bodies, profile and units of the case with those of the test",
-            ));
-        }
-    }
-    fit.answer(name, (units, table.bad.into_iter().map(|row| row.what).collect(), notes))
+    let has_units = case.units.is_some() || curves.has_units;
+    let mut found = answer(&fit, &curves, &names, (units, has_units))?;
+    found.part = request.part;
+    found.grid = coarser.map(|moved| in_units(&fit, moved.as_slice()));
+    found.notes.extend(notes_of_grid(&found));
+    found.notes.extend(notes);
+    Ok(found)
 }
 
-/// Depths and loads in the units of the case, pressing positive.
-fn pressed(table: &Table, scale: [f64; 2], name: &str) -> Result<[Vec<f64>; 2], IdentifyError> {
-    let of = |role: usize| -> Vec<f64> { table.of(role).iter().map(|value| value * scale[role]).collect() };
-    let (mut depths, mut loads) = (of(DEPTH), of(LOAD));
-    if loads.len() < FEWEST_ROWS {
-        let what = format!("{} rows of numbers: an indentation needs at least {FEWEST_ROWS}", loads.len());
-        return Err(refused(name, &what, "a hundred points serve well"));
+/// The answer of a fit.
+pub(super) fn answer<P: Pressing>(
+    fit: &Fit<'_, P>,
+    curves: &Curves,
+    names: &[&str],
+    (units, has_units): (Units, bool),
+) -> Result<Indentation, IdentifyError> {
+    let lost = || refused(&curves.name, "the curve cannot be fitted: its numbers do not determine it", "");
+    let sure = fit.sureness().ok_or_else(lost)?;
+    let (touch, frame) = (fit.touch(), fit.frame());
+    let constants = constants(fit, &sure, names);
+    let mut notes = curves.notes.clone();
+    let shaky: Vec<&str> =
+        constants.iter().filter(|constant| !constant.told).map(|constant| constant.name.as_str()).collect();
+    if !shaky.is_empty() {
+        notes.push(format!(
+            "the curve does not tell {}: it hardly changes with it, or changes in the same way with something else that is fitted",
+            shaky.join(", ")
+        ));
     }
-    for values in [&mut depths, &mut loads] {
-        let [low, high] = range(values);
-        if !(high > low) {
-            return Err(refused(
-                name,
-                "a column is the same in all rows: nothing was measured there",
-                "choose another column with --columns",
-            ));
-        }
-        // an instrument may count pressing as negative
-        if low.abs() > high.abs() {
-            values.iter_mut().for_each(|value| *value = -*value);
-        }
-    }
-    Ok([depths, loads])
+    let point = |(depth, load): (&f64, &f64)| {
+        let seen = fit.seen(*depth)?;
+        Some([depth - touch, *load, seen.load])
+    };
+    let points: Vec<[f64; 3]> =
+        curves.depths.iter().zip(&curves.loads).map(point).collect::<Option<_>>().ok_or_else(lost)?;
+    let most = fit.units[1];
+    let square = points.iter().map(|[_, load, computed]| (load - computed).powi(2)).sum::<f64>();
+    let noise = (square / (points.len() - fit.parameters.len()) as f64).sqrt() / most;
+    notes.extend(notes_of_residuals(curves, &points, (noise, sure.correlation), most));
+    let deepest = points.iter().fold(0.0_f64, |most, point| most.max(point[0]));
+    let along = |k: usize| {
+        let depth = deepest * k as f64 / POINTS_OF_CURVE as f64;
+        let seen = fit.seen(depth + touch)?;
+        Some([depth, seen.load, seen.depth])
+    };
+    let computed = (0..=POINTS_OF_CURVE).map(along).collect::<Option<_>>().ok_or_else(lost)?;
+    Ok(Indentation {
+        units,
+        has_units,
+        part: Part::default(),
+        constants,
+        grid: None,
+        touch,
+        frame,
+        noise,
+        correlation: sure.correlation,
+        histories: fit.histories,
+        points,
+        lines: curves.lines.clone(),
+        computed,
+        bad_rows: curves.bad_rows.clone(),
+        notes,
+        log: curves.name.clone(),
+    })
 }
 
-/// The problem of least squares. Parameters: logarithm of the value over that to start from; depth at which the indenter touches, less
-/// that to start from, over the range of depths.
-struct Fit<'a> {
-    indenter: &'a Indenter<'a>,
-    depths: &'a [f64],
-    loads: &'a [f64],
-    start: f64,
-    /// Ranges of depth and load.
-    units: [f64; 2],
-    /// Noise of both, as large as the ranges together.
-    noises: [f64; 2],
-    weights: Vec<f64>,
-    parameters: DVector<f64>,
-    now: Option<Curve>,
+/// The constants with their intervals.
+fn constants<P: Pressing>(fit: &Fit<'_, P>, sure: &Sureness, names: &[&str]) -> Vec<Constant> {
+    let [length, force] = fit.units;
+    let number = |(k, (name, value)): (usize, (&&str, f64))| {
+        let half = sure.halves[k];
+        Constant {
+            name: (*name).to_owned(),
+            unit: unit_of(name),
+            value,
+            interval: [value * (-half).exp(), value * half.min(FARTHEST).exp()],
+            told: half < TOLD && fit.parameters[k].abs() < FARTHEST,
+        }
+    };
+    let mut found: Vec<Constant> = names.iter().zip(fit.values()).enumerate().map(number).collect();
+    let mut linear = |name: &str, unit, value: f64, place: Option<usize>, scale: f64| {
+        let Some(place) = place else { return };
+        let half = sure.halves[place];
+        // Of a curve of which nothing bounds it: as far as it may be.
+        let apart = half.min(1e3) * scale;
+        let interval = [value - apart, value + apart];
+        found.push(Constant { name: name.to_owned(), unit, value, interval, told: half < TOLD });
+    };
+    linear("depth at first touch", "length", fit.touch(), fit.place_of_touch(), length);
+    linear("frame compliance", "length/force", fit.frame(), fit.place_of_frame(), length / force);
+    found
 }
 
-impl<'a> Fit<'a> {
-    fn new(
-        indenter: &'a Indenter<'a>,
-        [depths, loads]: [&'a [f64]; 2],
-        start: f64,
-    ) -> Result<Self, IdentifyError> {
-        let units = [range(depths), range(loads)].map(|[low, high]| high - low);
-        let of = |values: &[f64], unit: f64| (noise(values, 0.0) / unit).hypot(QUIET);
-        let [length, force] = [of(depths, units[0]), of(loads, units[1])];
-        let ratio = (length / force).clamp(1.0 / UNEQUAL, UNEQUAL);
-        let force = (2.0 / (1.0 + ratio * ratio)).sqrt();
-        Ok(Self {
-            indenter,
-            depths,
-            loads,
-            start,
-            units,
-            noises: [ratio * force * units[0], force * units[1]],
-            weights: Vec::new(),
-            parameters: DVector::zeros(2),
-            now: Some(indenter.curve(indenter.key().1)?),
-        })
-    }
+/// Changes of the parameters of a fit as those of its constants.
+fn in_units<P: Pressing>(fit: &Fit<'_, P>, moved: &[f64]) -> Vec<f64> {
+    let [length, force] = fit.units;
+    let values = fit.values();
+    let change = |(k, moved): (usize, &f64)| match values.get(k) {
+        Some(value) => value * moved,
+        None if fit.place_of_touch() == Some(k) => length * moved,
+        None => length / force * moved,
+    };
+    moved.iter().enumerate().map(change).collect()
+}
 
-    /// The value of the parameters.
-    fn value(&self) -> f64 {
-        self.indenter.key().1 * self.parameters[0].clamp(-FARTHEST, FARTHEST).exp()
-    }
+/// Constants that the grid moves by more than what noise leaves open.
+fn notes_of_grid(found: &Indentation) -> Option<String> {
+    let grid = found.grid.as_ref()?;
+    let moved = |(constant, moved): (&Constant, &f64)| {
+        let [low, high] = constant.interval;
+        (constant.told && 2.0 * moved.abs() > high - low).then(|| constant.name.clone())
+    };
+    let names: Vec<String> = found.constants.iter().zip(grid).filter_map(moved).collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "with half of the cells along each side {} would lie outside of the interval: the grid matters more than the noise; more cells would tell",
+            names.join(", ")
+        )
+    })
+}
 
-    /// Where the indenter touches.
-    fn touches(&self) -> f64 {
-        self.start + self.parameters[1] * self.units[0]
+/// The unit of a number of a case by the end of its path, in the words of [`Units::of`].
+fn unit_of(path: &str) -> &'static str {
+    let keys = path.split(['.', '[']).filter(|key| key.trim_end_matches(']').parse::<usize>().is_err());
+    match keys.last() {
+        Some("young") => "pressure",
+        Some("thickness" | "radius" | "radius_x" | "radius_y" | "flat_radius" | "edge_radius") => "length",
+        Some("normal_stiffness" | "shear_stiffness") => "pressure/length",
+        _ => "",
     }
+}
 
-    /// The weights of the points by the curve as it is.
-    fn weigh(&mut self) {
-        let (Some(now), touches, [length, force]) = (&self.now, self.touches(), self.noises) else { return };
-        let weight = |depth: &f64| 1.0 / force.hypot(length * now.at(depth - touches)[1]);
-        self.weights = self.depths.iter().map(weight).collect();
+/// What the residuals tell.
+fn notes_of_residuals(
+    curves: &Curves,
+    points: &[[f64; 3]],
+    (noise, correlation): (f64, f64),
+    most: f64,
+) -> Vec<String> {
+    let mut notes = Vec::new();
+    let count = points.len() as f64;
+    let independent = (count * (1.0 - correlation) / (1.0 + correlation)).max(1.0);
+    if correlation > 0.0 {
+        notes.push(format!(
+            "the residuals of neighbouring points are correlated ({correlation:.2}), as those of a filtered signal are, or the computed curve has another shape: the intervals are those of {independent:.0} independent points in place of {count}"
+        ));
     }
-
-    /// Weighted differences of loads from a curve.
-    fn differences(&self, curve: &Curve) -> Vec<f64> {
-        let touches = self.touches();
-        let points = self.depths.iter().zip(self.loads).zip(&self.weights);
-        points.map(|((depth, load), weight)| weight * (load - curve.at(depth - touches)[0])).collect()
-    }
-
-    fn sureness(&self) -> Option<Sureness> {
-        let (residuals, jacobian) = (self.residuals()?, self.jacobian()?);
-        let of_force: Vec<f64> =
-            self.weights.iter().map(|weight| (weight * self.noises[1]).powi(2)).collect();
-        let nothing = DVector::zeros(residuals.len());
-        sureness(&Left {
-            jacobian: &jacobian,
-            residuals: &residuals,
-            of_force: &of_force,
-            bend: (nothing, 0.0),
-        })
-    }
-
-    fn answer(
-        self,
-        name: &str,
-        (units, bad_rows, mut notes): (Units, Vec<String>, Vec<String>),
-    ) -> Result<Indentation, IdentifyError> {
-        let lost = || refused(name, "the curve cannot be fitted: its constants do not determine it", "");
-        let sure = self.sureness().ok_or_else(lost)?;
-        let now = self.now.as_ref().ok_or_else(lost)?;
-        let (value, touches) = (self.value(), self.touches());
-        let [half, apart] = [sure.halves[0], sure.halves[1] * self.units[0]];
-        let key = self.indenter.key().0;
-        let told = half < TOLD && self.parameters[0].abs() < FARTHEST;
-        if !told {
-            notes.push(format!("the curve does not tell {key}: it hardly changes with it, or changes as with where the indenter touches"));
-        }
-        if sure.correlation > 0.0 {
+    let top = curves.top;
+    let off: Vec<f64> = points.iter().map(|[_, load, computed]| (load - computed) / most).collect();
+    let mean = |rows: &[f64]| rows.iter().sum::<f64>() / rows.len() as f64;
+    let (loading, unloading) = off.split_at(top.min(off.len()));
+    if loading.len() > 5 && unloading.len() > 5 {
+        let apart = mean(loading) - mean(unloading);
+        // By the noise from row to row: that about the curve has the difference in it.
+        let chance =
+            from_row_to_row(&off, 0.0) * (1.0 / loading.len() as f64 + 1.0 / unloading.len() as f64).sqrt();
+        if apart > (DIFFER.0 * chance).max(DIFFER.1) {
             notes.push(format!(
-                "neighbouring points are correlated by {:.2}, or the model misses something of the course: the intervals are as much wider",
-                sure.correlation
+                "loading lies above unloading by {:.1} % of the largest load in the mean: the test is not elastic (plastic, viscous, or it drifts), and the model is; fit one part alone (loading or unloading), or a test with less load",
+                100.0 * apart
             ));
         }
-        let point = |(depth, load): (&f64, &f64)| [depth - touches, *load, now.at(depth - touches)[0]];
-        let points: Vec<[f64; 3]> = self.depths.iter().zip(self.loads).map(point).collect();
-        let off = points.iter().map(|[_, load, computed]| (load - computed).powi(2)).sum::<f64>();
-        let deepest = points.iter().fold(0.0_f64, |most, point| most.max(point[0]));
-        let along = |k: usize| deepest * k as f64 / POINTS_OF_CURVE as f64;
-        Ok(Indentation {
-            log: name.to_owned(),
-            units,
-            constants: [
-                Constant {
-                    name: key.to_owned(),
-                    unit: "",
-                    value,
-                    interval: [value * (-half).exp(), value * half.min(700.0).exp()],
-                    told,
-                },
-                Constant {
-                    name: "depth at first touch".to_owned(),
-                    unit: "length",
-                    value: touches,
-                    interval: [touches - apart, touches + apart],
-                    told: true,
-                },
-            ],
-            noise: (off / (points.len() as f64 - 2.0)).sqrt() / self.units[1],
-            computed: (0..=POINTS_OF_CURVE).map(|k| [along(k), now.at(along(k))[0]]).collect(),
-            points,
-            bad_rows,
-            notes,
-        })
     }
-}
-
-impl LeastSquaresProblem<f64, Dyn, Dyn> for Fit<'_> {
-    type ResidualStorage = Owned<f64, Dyn>;
-    type JacobianStorage = Owned<f64, Dyn, Dyn>;
-    type ParameterStorage = Owned<f64, Dyn>;
-
-    fn set_params(&mut self, parameters: &DVector<f64>) {
-        let same = parameters[0] == self.parameters[0];
-        self.parameters.clone_from(parameters);
-        if !same || self.now.is_none() {
-            self.now = self.indenter.curve(self.value()).ok();
-        }
+    let lowest = points.iter().fold(0.0_f64, |low, point| low.min(point[1])) / most;
+    if lowest < -PULLS.max(4.0 * noise) {
+        notes.push(format!(
+            "the load falls to {:.1} % of the largest: adhesion, or a load that is not counted from zero, of which the model knows nothing",
+            100.0 * lowest
+        ));
     }
-
-    fn params(&self) -> DVector<f64> {
-        self.parameters.clone()
+    if noise > OFF {
+        notes.push(format!(
+            "the points lie {:.0} % of the largest load off the curve: more than noise; the case describes another contact",
+            100.0 * noise
+        ));
     }
-
-    fn residuals(&self) -> Option<DVector<f64>> {
-        let Some(now) = &self.now else {
-            // Too long a step, to a contact that the grid does not hold, say: it is taken back.
-            return Some(DVector::from_element(self.loads.len(), UNSOLVED));
-        };
-        Some(DVector::from_vec(self.differences(now)))
-    }
-
-    fn jacobian(&self) -> Option<DMatrix<f64>> {
-        let now = self.now.as_ref()?;
-        let beside = |step: f64| Some((step, self.indenter.curve(self.value() * step.exp()).ok()?));
-        let (step, there) = beside(STEP).or_else(|| beside(-STEP))?;
-        let (here, there) = (self.differences(now), self.differences(&there));
-        let touches = self.touches();
-        Some(DMatrix::from_fn(here.len(), 2, |row, k| match k {
-            0 => (there[row] - here[row]) / step,
-            _ => self.weights[row] * now.at(self.depths[row] - touches)[1] * self.units[0],
-        }))
-    }
+    notes
 }
