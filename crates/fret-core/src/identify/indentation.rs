@@ -78,6 +78,7 @@ pub fn indentation(
     let mut fit = fit(name, indenter, &start, [&curves.depths, &curves.loads], known)?;
     let coarser = fit.coarser();
     let mut notes = Vec::new();
+    fit.histories += 1;
     for warning in fit.indenter.warnings(&fit.values())? {
         notes.push(warning.message);
     }
@@ -111,6 +112,9 @@ pub(super) fn answer<P: Pressing>(
             "the curve does not tell {}: it hardly changes with it, or changes in the same way with something else that is fitted",
             shaky.join(", ")
         ));
+    }
+    if !fit.stands {
+        notes.push("the numbers still moved in the last round of the fit: they are those of a curve that comes near, not of the nearest".to_owned());
     }
     let point = |(depth, load): (&f64, &f64)| {
         let seen = fit.seen(*depth)?;

@@ -27,7 +27,7 @@ const QUIET: f64 = 1e-4;
 /// The noise of one signal over that of the other, relative to the ranges, at the most.
 const UNEQUAL: f64 = 4.0;
 /// Rounds, in which the feet of the points follow the solution, at the most; in the first of them the grid follows, too.
-const ROUNDS: usize = 20;
+const ROUNDS: usize = 12;
 const ROUNDS_OF_GRIDS: usize = 2;
 /// Rounds end when no parameter moves more than this part of its half-width, or this much by itself.
 const STANDS: f64 = 5e-3;
@@ -73,6 +73,8 @@ pub struct Fit<'a, P> {
     pub now: Option<Curve>,
     /// How many histories were solved.
     pub histories: usize,
+    /// Whether the rounds ended because nothing moved any more.
+    pub stands: bool,
 }
 
 /// The foot of a point on the curve.
@@ -114,6 +116,7 @@ pub fn fit<'a, P: Pressing>(
         ),
         now: None,
         histories: 0,
+        stands: false,
     };
     if let Some(place) = fit.place_of_frame() {
         fit.parameters[place] = known.frame * units[1] / units[0];
@@ -142,7 +145,8 @@ pub fn fit<'a, P: Pressing>(
             let moved = (fit.parameters[k] - before[k]).abs();
             moved < STANDS_BY_ITSELF || sure.as_ref().is_some_and(|sure| moved < STANDS * sure.halves[k])
         };
-        if round >= ROUNDS_OF_GRIDS && (0..before.len()).all(stands) {
+        fit.stands = (0..before.len()).all(stands);
+        if round >= ROUNDS_OF_GRIDS && fit.stands {
             break;
         }
     }

@@ -116,6 +116,9 @@ impl<'a> Indenter<'a> {
     /// Loads at the depths, and the derivatives of their logarithms by those of the numbers, through the equations of the increments; `None`
     /// where these do not give them.
     fn exact(&self, values: &[f64]) -> Result<Option<Loads>, IdentifyError> {
+        if values.is_empty() {
+            return Ok(None);
+        }
         let request = Request {
             of: (0..self.depths.len()).map(|k| format!("increments[{k}].normal_force")).collect(),
             by: self.numbers.keys.iter().map(|(name, _)| name.clone()).collect(),

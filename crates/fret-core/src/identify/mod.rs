@@ -1,4 +1,5 @@
-//! From measured fretting loops to the constants of a model: friction coefficient, stiffness of the rig, one number of the case.
+//! From measured fretting loops to the constants of a model: friction coefficient, stiffness of the rig, one number of the case. And from a
+//! measured indentation to moduli, thicknesses and other numbers of the case.
 //!
 //! From the ground: `request` and `error`; `log` (which columns there are); `turns` of a signal,
 //! `cycles` (which are whole), `direction`, `drift`; `computed` (a loop between its points), `model` (the loop that the solver computes),
