@@ -35,6 +35,7 @@ from fretting.errors import (
 )
 from fretting.history import History
 from fretting.identifying import Identification, identify
+from fretting.indenting import Indentation, identify_indentation
 from fretting.kernels import Convolution, frequency_response, influence_coefficients
 from fretting.loading import open_results
 from fretting.planning import Plan, plan
@@ -52,6 +53,7 @@ __all__ = [
     "FrettingWarning",
     "History",
     "Identification",
+    "Indentation",
     "Lognormal",
     "MissingFileError",
     "Mistake",
@@ -70,6 +72,7 @@ __all__ = [
     "frequency_response",
     "gradient",
     "identify",
+    "identify_indentation",
     "influence_coefficients",
     "open_results",
     "plan",

@@ -34,6 +34,7 @@ __all__ = [
     "hertz_ellipse",
     "hertz_line",
     "identify",
+    "identify_indentation",
     "influence_coefficients",
     "line_history",
     "memory_needed",
@@ -179,6 +180,12 @@ def identify(
     log: tuple[str, bytes],
     case: Case,
     asked: tuple[list[tuple[str, str]], list[tuple[str, str]], float | None, str | None, bool],
+    threads: int | None,
+) -> tuple[str, str]: ...
+def identify_indentation(
+    log: tuple[str, bytes],
+    case: Case,
+    asked: tuple[list[tuple[str, str]], list[tuple[str, str]], list[str], str, float | None, bool, bool],
     threads: int | None,
 ) -> tuple[str, str]: ...
 def study(

@@ -337,9 +337,9 @@ pub struct CompareScarArguments {
 /// Which loops, and what is known of the test.
 #[derive(Debug, Args)]
 pub struct IdentifyArguments {
-    /// The measured log (CSV): displacement of the actuator and tangential force, row by row; any lines above the names of the columns
+    /// The measured log (CSV): displacement of the actuator and tangential force, row by row, or depth and load of an indentation; any lines above the names of the columns
     pub log: PathBuf,
-    /// The case: bodies, profile, grid and the stages that press them. Its friction is where the fit starts
+    /// The case: bodies, profile, grid and the stages that press them. Its friction, or its numbers named by --fit, are where the fit starts
     #[arg(long, value_name = "CASE")]
     pub case: PathBuf,
     /// Which column holds what, by name or by number from 1: `displacement=NAME,force=NAME,cycle=NAME,normal_force=NAME` [default: rig.columns of the case, else usual names]
@@ -351,9 +351,21 @@ pub struct IdentifyArguments {
     /// The cycle to fit, by its number [default: the last whole one]
     #[arg(long, value_name = "N")]
     pub cycle: Option<f64>,
-    /// Also fit one number of the case, such as lower.substrate.young
+    /// Also fit one number of the case, such as lower.substrate.young; of an indentation, numbers of bodies and profile, once for each
     #[arg(long, value_name = "KEY")]
-    pub fit: Option<String>,
+    pub fit: Vec<String>,
+    /// The log is load over depth of an indentation: fit the numbers named by --fit, such as lower.coatings[0].young, and the depth at first touch
+    #[arg(long, conflicts_with = "cycle")]
+    pub indentation: bool,
+    /// Of an indentation: which part is fitted [default: whole]
+    #[arg(long, value_name = "PART", value_parser = ["whole", "loading", "unloading"], requires = "indentation")]
+    pub part: Option<String>,
+    /// Of an indentation: the depth at which the indenter touches, in the unit of the case, where it is known [default: fitted]
+    #[arg(long, value_name = "DEPTH", allow_negative_numbers = true, requires = "indentation")]
+    pub touch: Option<f64>,
+    /// Of an indentation: also fit the compliance of the instrument's frame [default: that of rig.normal_stiffness in the case, or none]
+    #[arg(long, requires = "indentation")]
+    pub frame: bool,
     /// Refuse a log with a cycle that is no whole loop, or a row without a number [default: leave these out and name them]
     #[arg(long)]
     pub strict: bool,

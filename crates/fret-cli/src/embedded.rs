@@ -19,6 +19,7 @@ use crate::defect;
 use crate::estimate::{Estimate, NoBars};
 pub use crate::failure::Failure;
 pub use crate::identify::Request as IdentifyRequest;
+pub use crate::identify::indentation::IndentationAsked;
 use crate::terminal;
 use crate::threads;
 use fret_results::{
@@ -188,9 +189,25 @@ pub fn identify(
     case_file: &CaseFile,
     request: &IdentifyRequest,
 ) -> Result<(Value, String), Failure> {
-    let asked = || crate::identify::identify(log, case_file, request);
-    // A mistake in the program is an error of the call, not the end of the caller.
-    let answer = catch_unwind(AssertUnwindSafe(asked))
-        .unwrap_or_else(|panic| Err(Failure::Defect(defect::words_of(panic.as_ref()))))?;
+    let answer = in_whole(|| crate::identify::identify(log, case_file, request))?;
     Ok((answer.json(), answer.page()))
+}
+
+/// Numbers of a case from a measured indentation, as `identified.json` has them, and the page with its pictures.
+///
+/// # Errors
+/// When the log cannot be read as load over depth, or the case cannot be solved.
+pub fn identify_indentation(
+    log: (&str, &[u8]),
+    case_file: &CaseFile,
+    asked: &IndentationAsked,
+) -> Result<(Value, String), Failure> {
+    let answer = in_whole(|| crate::identify::indentation::indentation(log, case_file, asked))?;
+    Ok((answer.json(), answer.page()))
+}
+
+/// What is asked: a mistake in the program is an error of the call, not the end of the caller.
+fn in_whole<T>(asked: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
+    catch_unwind(AssertUnwindSafe(asked))
+        .unwrap_or_else(|panic| Err(Failure::Defect(defect::words_of(panic.as_ref()))))
 }

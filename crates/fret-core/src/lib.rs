@@ -101,7 +101,8 @@
 //! ```
 //!
 //! [`analytic`] has closed-form solutions to compare with, [`subsurface`] the stresses below the surface and what engineers judge them
-//! by, [`study`] error bars and convergence studies; [`identify`] finds the constants of a model in measured fretting loops.
+//! by, [`study`] error bars and convergence studies; [`identify`] finds the constants of a model in measured fretting loops,
+//! and numbers of a case in a measured indentation.
 //!
 //! # Where things are
 //!

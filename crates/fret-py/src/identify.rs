@@ -1,7 +1,7 @@
-//! Constants of a model from measured fretting loops.
+//! Constants of a model from measured fretting loops, and numbers of a case from an indentation.
 
-use fret_cli::embedded::{self, IdentifyRequest};
-use fret_core::identify::Request;
+use fret_cli::embedded::{self, IdentifyRequest, IndentationAsked};
+use fret_core::identify::{IndentationRequest, Part, Request};
 use fret_core::measured;
 use pyo3::prelude::{PyResult, Python, pyfunction};
 
@@ -28,5 +28,30 @@ pub fn identify(
     let pool = threads::pool(threads)?;
     let text = case.text()?;
     let answer = py.detach(|| pool.install(|| embedded::identify((&name, &bytes), &text, &request)));
+    answer.map(|(json, page)| (json.to_string(), page)).map_err(stopped)
+}
+
+/// What is asked of an indentation: columns, units, the keys, which part, the touch, whether the frame is fitted, whether bad rows are refused.
+type AskedOfDepth =
+    (Vec<(String, String)>, Vec<(String, String)>, Vec<String>, String, Option<f64>, bool, bool);
+
+/// Fits numbers of a case to a measured indentation, whose name and bytes are given; the answer as JSON text, and the page.
+#[pyfunction]
+pub fn identify_indentation(
+    py: Python<'_>,
+    log: (String, Vec<u8>),
+    case: &Case,
+    asked: AskedOfDepth,
+    threads: Threads,
+) -> PyResult<(String, String)> {
+    let (columns, units, keys, part, touch, frame, strict) = asked;
+    let part = Part::named(&part).unwrap_or_default();
+    let asked = measured::Asked { columns, units };
+    let asked = IndentationAsked { request: IndentationRequest { asked, part, touch, frame, strict }, keys };
+    let (name, bytes) = log;
+    let pool = threads::pool(threads)?;
+    let text = case.text()?;
+    let answer =
+        py.detach(|| pool.install(|| embedded::identify_indentation((&name, &bytes), &text, &asked)));
     answer.map(|(json, page)| (json.to_string(), page)).map_err(stopped)
 }

@@ -51,7 +51,7 @@ mod _core {
     #[pymodule_export]
     use crate::history::{History, vocabulary};
     #[pymodule_export]
-    use crate::identify::identify;
+    use crate::identify::{identify, identify_indentation};
     #[pymodule_export]
     use crate::in_common::InCommon;
     #[pymodule_export]

@@ -1,15 +1,17 @@
-//! `fret identify`: constants of a model from measured fretting loops.
+//! `fret identify`: constants of a model from measured fretting loops, or from an indentation.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use fret_core::identify;
 use fret_core::measured::Asked;
+use serde_json::Value;
 
 use super::columns_asked::pairs;
 use crate::arguments::IdentifyArguments;
 use crate::failure::Failure;
-use crate::identify::{Answer, Request, identify as identified, name_of};
+use crate::identify::indentation::{IndentationAsked, indentation};
+use crate::identify::{Request, identify as identified, name_of};
 use crate::terminal;
 use crate::threads;
 use fret_results::CaseFile;
@@ -19,6 +21,7 @@ use fret_results::{folder_for_answers, stem, write_whole};
 const IDENTIFIED: &str = "identified.json";
 /// How columns and units are chosen.
 const EXAMPLE: &str = "displacement=...,force=...";
+const EXAMPLE_OF_DEPTH: &str = "depth=...,force=...";
 /// Bytes of a log, at the most.
 const MOST_BYTES: u64 = 1 << 30;
 
@@ -26,28 +29,93 @@ const MOST_BYTES: u64 = 1 << 30;
 pub fn identify(arguments: &IdentifyArguments, as_json: bool) -> Result<(), Failure> {
     let name = name_of(&arguments.log);
     let bytes = content(&arguments.log)?;
-    let log = identify::Request {
-        asked: Asked {
-            columns: pairs("--columns", &arguments.columns, EXAMPLE)?,
-            units: pairs("--units", &arguments.units, EXAMPLE)?,
-        },
-        cycle: arguments.cycle,
-        strict: arguments.strict,
+    let asked = |example: &str| -> Result<Asked, Failure> {
+        Ok(Asked {
+            columns: pairs("--columns", &arguments.columns, example)?,
+            units: pairs("--units", &arguments.units, example)?,
+        })
     };
-    let request = Request { log, key: arguments.fit.clone() };
+    let question = if arguments.indentation {
+        Question::Indentation(indentation_asked(arguments, asked(EXAMPLE_OF_DEPTH)?)?)
+    } else {
+        let (asked, strict) = (asked(EXAMPLE)?, arguments.strict);
+        let log = identify::Request { asked, cycle: arguments.cycle, strict };
+        Question::Loops(Request { log, key: one_key(&arguments.fit)? })
+    };
     let case_file = CaseFile::read(&arguments.case)?;
     let pool = threads::pool(threads::asked(arguments.threads))?;
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.log));
     let folder = folder_for_answers(&folder, &[IDENTIFIED], "an identification")?;
-    let answer = pool.install(|| identified((&name, &bytes), &case_file, &request))?;
-    write(&folder, &answer)?;
+    let log = (name.as_str(), &bytes[..]);
+    let written = match question {
+        Question::Loops(request) => {
+            let answer = pool.install(|| identified(log, &case_file, &request))?;
+            Written {
+                json: answer.json(),
+                text: answer.text(),
+                page: answer.page(),
+                table: ("cycles.csv", answer.table()),
+            }
+        }
+        Question::Indentation(request) => {
+            let answer = pool.install(|| indentation(log, &case_file, &request))?;
+            Written {
+                json: answer.json(),
+                text: answer.text(),
+                page: answer.page(),
+                table: ("indentation.csv", answer.table()),
+            }
+        }
+    };
+    write(&folder, &written)?;
     if as_json {
-        return terminal::answer_in_json(&answer.json());
+        return terminal::answer_in_json(&written.json);
     }
     if !arguments.quiet {
-        terminal::answer(&format!("{}\nwritten to {}", answer.text(), folder.display()))?;
+        terminal::answer(&format!("{}\nwritten to {}", written.text, folder.display()))?;
     }
     Ok(())
+}
+
+/// What a log is asked.
+enum Question {
+    Loops(Request),
+    Indentation(IndentationAsked),
+}
+
+/// What is written of an answer: its table with the name of its file.
+struct Written {
+    json: Value,
+    text: String,
+    page: String,
+    table: (&'static str, String),
+}
+
+fn one_key(keys: &[String]) -> Result<Option<String>, Failure> {
+    match keys {
+        [] => Ok(None),
+        [key] => Ok(Some(key.clone())),
+        keys => Err(Failure::Call(
+            format!(
+                "--fit, {} times: a fretting loop tells one number of the case besides friction and rig",
+                keys.len()
+            ),
+            "--fit KEY once; several are fitted to an indentation (--indentation)".to_owned(),
+        )),
+    }
+}
+
+fn indentation_asked(arguments: &IdentifyArguments, asked: Asked) -> Result<IndentationAsked, Failure> {
+    let part = arguments.part.as_deref().and_then(identify::Part::named).unwrap_or_default();
+    if arguments.fit.is_empty() && !arguments.frame {
+        return Err(Failure::Call(
+            "--indentation: nothing is fitted but the depth at first touch".to_owned(),
+            "--fit lower.coatings[0].young, or another number of the case; or --frame".to_owned(),
+        ));
+    }
+    let (touch, frame, strict) = (arguments.touch, arguments.frame, arguments.strict);
+    let request = identify::IndentationRequest { asked, part, touch, frame, strict };
+    Ok(IndentationAsked { request, keys: arguments.fit.clone() })
 }
 
 /// The bytes of a log: an ordinary file, measured before it is read.
@@ -81,10 +149,11 @@ fn default_folder(log: &Path) -> PathBuf {
     Path::new("results").join(format!("{}-identified", stem(log, "log").display()))
 }
 
-/// Writes the answer: numbers, a table of the cycles, a page.
-pub fn write(folder: &Path, answer: &Answer) -> Result<(), Failure> {
-    write_whole(&folder.join(IDENTIFIED), format!("{:#}\n", answer.json()).as_bytes())?;
-    write_whole(&folder.join("identified.html"), answer.page().as_bytes())?;
-    write_whole(&folder.join("cycles.csv"), answer.table().as_bytes())?;
+/// Writes the answer: numbers, a table, a page.
+fn write(folder: &Path, written: &Written) -> Result<(), Failure> {
+    write_whole(&folder.join(IDENTIFIED), format!("{:#}\n", written.json).as_bytes())?;
+    write_whole(&folder.join("identified.html"), written.page.as_bytes())?;
+    let (name, table) = &written.table;
+    write_whole(&folder.join(name), table.as_bytes())?;
     Ok(())
 }

@@ -1,5 +1,7 @@
-//! A measured log, identified by a case: what the core finds (`fret_core::identify`), as a record, a text, a table and a page.
+//! A measured log, identified by a case: what the core finds (`fret_core::identify`), as a record, a text, a table and a page; of fretting loops,
+//! and of an indentation (`indentation.rs`).
 
+pub mod indentation;
 mod over_cycles;
 mod page;
 mod record;
@@ -73,7 +75,7 @@ impl Answer {
 /// When the log cannot be read as fretting loops of such a case, or the case cannot be solved.
 pub fn identify(log: (&str, &[u8]), case_file: &CaseFile, request: &Request) -> Result<Answer, Failure> {
     let case = case_file.case(None)?;
-    let with = |name: &str, value: f64| case_with(case_file, name, value);
+    let with = |name: &str, value: f64| case_with(case_file, &[(name, value)]);
     let found = match &request.key {
         None => identify::identify(log, case, None, &request.log)?,
         Some(name) => {
@@ -89,7 +91,7 @@ pub fn identify(log: (&str, &[u8]), case_file: &CaseFile, request: &Request) -> 
 fn value_of(case_file: &CaseFile, key: &str) -> Result<f64, Failure> {
     let table: Table = case_file.text.parse().map_err(|_| unknown(key))?;
     let root = toml::Value::Table(table);
-    let found = key.split('.').try_fold(&root, |here, part| {
+    let found = dotted(key).split('.').try_fold(&root, |here, part| {
         part.parse::<usize>().map_or_else(|_| here.get(part), |index| here.get(index))
     });
     let value =
@@ -104,11 +106,18 @@ fn unknown(key: &str) -> Failure {
     )
 }
 
-/// The case with another number at a key.
-fn case_with(case_file: &CaseFile, name: &str, value: f64) -> Result<Case, CaseError> {
+/// A key with numbers in brackets as one with numbers for keys: `lower.coatings[0].young` as `lower.coatings.0.young`.
+fn dotted(key: &str) -> String {
+    key.replace('[', ".").replace(']', "")
+}
+
+/// The case with other numbers at keys.
+fn case_with(case_file: &CaseFile, numbers: &[(&str, f64)]) -> Result<Case, CaseError> {
     let refuse = |why: String| CaseError::plain(&case_file.name(), why);
-    let mut table: Table = case_file.text.parse().map_err(|_| refuse(format!("no number at {name}")))?;
-    key::put(&mut table, name, &toml::Value::Float(value)).map_err(refuse)?;
+    let mut table: Table = case_file.text.parse().map_err(|_| refuse("no table of keys".to_owned()))?;
+    for (name, value) in numbers {
+        key::put(&mut table, &dotted(name), &toml::Value::Float(*value)).map_err(refuse)?;
+    }
     let text = toml::to_string(&table).map_err(|error| refuse(error.to_string()))?;
     let beside = case_file.beside.as_ref();
     let folder = beside.map_or_else(

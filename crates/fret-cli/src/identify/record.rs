@@ -72,13 +72,12 @@ fn skipped(found: &Identification) -> Value {
         "cycles": cycles,
         "rows": found.bad_rows.len(),
         "cycles_in_words": found.skipped_in_words(),
-        "rows_in_words": rows_in_words(found),
+        "rows_in_words": rows_in_words(&found.bad_rows),
     })
 }
 
 /// Rows that were skipped.
-pub fn rows_in_words(found: &Identification) -> Option<String> {
-    let rows = &found.bad_rows;
+pub fn rows_in_words(rows: &[String]) -> Option<String> {
     let named = rows.iter().take(ROWS_NAMED).map(String::as_str).collect::<Vec<_>>().join("; ");
     match rows.len() {
         0 => None,

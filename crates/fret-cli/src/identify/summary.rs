@@ -37,7 +37,7 @@ pub fn summary(found: &Identification) -> String {
         if skipped == 0 { "" } else { " used" },
         fitted.measured.name
     )];
-    for words in [found.skipped_in_words(), rows_in_words(found)].into_iter().flatten() {
+    for words in [found.skipped_in_words(), rows_in_words(&found.bad_rows)].into_iter().flatten() {
         lines.push(format!("  skipped: {words}"));
     }
     for constant in &found.constants {

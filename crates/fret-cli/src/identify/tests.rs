@@ -1,8 +1,14 @@
 //! What is written of an identification: the text, the table, the record, the page.
 
+use std::fmt::Write;
 use std::path::PathBuf;
 
+use fret_core::identify::IndentationRequest;
+
+use super::indentation::{IndentationAnswer, IndentationAsked, indentation};
 use super::{Answer, Request, identify};
+use crate::failure::Failure;
+use crate::figures::figure;
 use fret_results::{Beside, CaseFile};
 
 /// Two equal spheres of E = 210 GPa, nu = 0, pressed with 100 N: units mm and N.
@@ -72,5 +78,61 @@ fn a_key_of_the_case_is_fitted_or_refused() {
     for key in ["lower.substrate.poisson", "title", "nope", "", "load.7.normal_force"] {
         let refused = identify(("log.csv", LOOP.as_bytes()), &case, &request(key)).unwrap_err();
         assert!(refused.message().contains("the case has no positive number there"), "{refused:?}");
+    }
+}
+
+/// A rigid ball on a body of E = 70 GPa, nu = 0.3, that the case takes for softer: Hertz, in closed form, without noise.
+const PRESSED: &str = "[units]\nlength = \"mm\"\nforce = \"N\"\n[grid]\ncells = [32, 32]\nsize = \"auto\"\n[upper]\nrigid = true\n[lower]\nsubstrate = { young = 50e3, poisson = 0.3 }\n\
+    [profile.sphere]\nradius = 1.0\n[[load]]\nnormal_force = 1.0\nincrements = 1\n";
+
+fn hertz() -> String {
+    (0..60).fold("h (um)\tP (N)\n".to_owned(), |mut log, k| {
+        let depth = 0.02e-3 * f64::from(k) - 0.1e-3;
+        let load = 4.0 / 3.0 * 70e3 / 0.91 * depth.max(0.0).powf(1.5);
+        let _ = writeln!(log, "{:.6}\t{load:.8}", 1e3 * depth + 0.4);
+        log
+    })
+}
+
+fn indented(keys: &[&str], request: IndentationRequest) -> Result<IndentationAnswer, Failure> {
+    let beside = Beside { folder: PathBuf::new(), contents: Vec::new() };
+    let case = CaseFile::of_text("case.toml", PRESSED.to_owned(), beside);
+    let keys = keys.iter().map(|key| (*key).to_owned()).collect();
+    indentation(("log.txt", hertz().as_bytes()), &case, &IndentationAsked { request, keys })
+}
+
+/// Text, record, table and page have the numbers of one answer; the modulus is that of the closed form to the error of 32 cells.
+#[test]
+fn an_indentation_is_written_as_one_answer() {
+    let answer = indented(&["lower.substrate.young"], IndentationRequest::default()).unwrap();
+    let (json, text, table, page) = (answer.json(), answer.text(), answer.table(), answer.page());
+    let young = json["parameters"][0]["value"].as_f64().unwrap();
+    assert!((young / 70e3 - 1.0).abs() < 0.01, "{young}");
+    assert!((json["touch"].as_f64().unwrap() - 0.4e-3).abs() < 2e-6, "{json}");
+    assert_eq!(json["parameters"][1]["name"], "depth at first touch");
+    assert!(
+        text.starts_with("log.txt: 60 points of the whole test, 2 constants fitted with ")
+            && text.contains(&format!("lower.substrate.young  {} MPa   95 %: ", figure(young)))
+            && text.contains("on half of the cells: "),
+        "{text}"
+    );
+    assert!(table.starts_with("line,depth [mm],force [N],computed_force [N],residual [N]\n2,"), "{table}");
+    assert_eq!(table.lines().count(), 61);
+    assert!(page.contains("Indentation of log.txt") && page.contains("residuals of the indentation"));
+}
+
+/// Keys with numbers of lists in brackets or as keys of their own, twice the same, or where none stands.
+#[test]
+fn keys_of_an_indentation_are_those_of_the_case() {
+    for (keys, words) in [
+        (
+            &["lower.coatings[0].young"][..],
+            "--fit lower.coatings[0].young: the case has no positive number there",
+        ),
+        (&["lower.coatings[0].young", "lower.coatings.0.young"], "named twice"),
+        (&["load[0].normal_force"], "load over depth tells numbers of the bodies and of the profile"),
+    ] {
+        let refused = indented(keys, IndentationRequest::default()).unwrap_err();
+        assert!(refused.message().contains(words), "{refused:?}");
     }
 }

@@ -10,7 +10,7 @@ use super::intervals::Sureness;
 use super::model::Model;
 
 /// An interval wider than this on either side, relative, tells nothing of its constant.
-const TOLD: f64 = 0.5;
+pub const TOLD: f64 = 0.5;
 /// Part of a straight drift that a bend may have: an exponential approach with a time constant of half a cycle.
 const BENT: f64 = 0.25;
 /// An interval is said to be wider from this factor on.

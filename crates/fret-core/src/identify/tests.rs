@@ -4,6 +4,7 @@ mod bad_cycles;
 mod coverage;
 mod exports;
 mod friction;
+mod indentation;
 
 use std::f64::consts::TAU;
 use std::fmt::Write;

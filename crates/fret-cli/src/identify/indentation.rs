@@ -1,0 +1,223 @@
+//! A measured indentation, and what is told of it: record, text, table and page.
+
+use fret_core::case::Units;
+use fret_core::identify::{self, Constant, Indentation, IndentationRequest, Numbers};
+use maud::{Markup, html};
+use serde_json::{Value, json};
+
+use super::record::rows_in_words;
+use super::{case_with, dotted, value_of};
+use crate::drawing::chart::{Chart, Curve, Stroke};
+use crate::drawing::scale::Label;
+use crate::failure::Failure;
+use crate::figures::{counted, figure};
+use crate::report::html::{figure_of, number, table};
+use crate::report::whole_page;
+use fret_results::CaseFile;
+
+/// What is asked of an indentation, and the keys of the case that are fitted, such as `lower.coatings[0].young`.
+#[derive(Debug, Clone, Default)]
+pub struct IndentationAsked {
+    /// Of the log.
+    pub request: IndentationRequest,
+    /// The keys.
+    pub keys: Vec<String>,
+}
+
+/// What is written of an indentation.
+#[derive(Debug)]
+pub struct IndentationAnswer {
+    /// What the log tells.
+    pub found: Indentation,
+}
+
+/// Fits numbers of a case to a measured indentation.
+///
+/// # Errors
+/// When the log cannot be read as load over depth, or the case cannot be solved.
+pub fn indentation(
+    log: (&str, &[u8]),
+    case_file: &CaseFile,
+    asked: &IndentationAsked,
+) -> Result<IndentationAnswer, Failure> {
+    let case = case_file.case(None)?;
+    let keys = &asked.keys;
+    for (k, key) in keys.iter().enumerate() {
+        if keys[..k].iter().any(|other| dotted(other) == dotted(key)) {
+            return Err(Failure::Call(format!("--fit {key}: named twice"), "name each key once".to_owned()));
+        }
+    }
+    let numbers: Vec<(String, f64)> = keys
+        .iter()
+        .map(|key| Ok((key.clone(), value_of(case_file, key)?)))
+        .collect::<Result<_, Failure>>()?;
+    let case_of = |values: &[f64]| {
+        let numbers: Vec<(&str, f64)> =
+            keys.iter().zip(values).map(|(key, value)| (key.as_str(), *value)).collect();
+        case_with(case_file, &numbers)
+    };
+    let numbers = Numbers { keys: numbers, case_with: &case_of };
+    Ok(IndentationAnswer { found: identify::indentation(log, &case, &numbers, &asked.request)? })
+}
+
+impl IndentationAnswer {
+    /// All of it, as `identified.json` has it.
+    pub fn json(&self) -> Value {
+        let found = &self.found;
+        let along = |k: usize| found.points.iter().map(|point| point[k]).collect::<Vec<f64>>();
+        let computed = |k: usize| found.computed.iter().map(|point| point[k]).collect::<Vec<f64>>();
+        let parameters: Vec<Value> = found
+            .constants
+            .iter()
+            .enumerate()
+            .map(|(k, constant)| {
+                let [low, high] = constant.interval;
+                json!({
+                    "name": constant.name,
+                    "unit": constant.unit,
+                    "value": constant.value,
+                    "low": low,
+                    "high": high,
+                    "told": constant.told,
+                    "change_on_half_the_cells": found.grid.as_ref().map(|grid| grid[k]),
+                })
+            })
+            .collect();
+        json!({
+            "log": found.log,
+            "units": {"length": found.units.length, "force": found.units.force},
+            "part": found.part.name(),
+            "parameters": parameters,
+            "touch": found.touch,
+            "frame_compliance": found.frame,
+            "noise": found.noise,
+            "correlation": found.correlation,
+            "solved_indentations": found.histories,
+            "skipped": {"rows": found.bad_rows.len(), "rows_in_words": rows_in_words(&found.bad_rows)},
+            "measured": {"line": found.lines, "depth": along(0), "force": along(1), "computed_force": along(2)},
+            "computed": {"depth": computed(0), "force": computed(1), "contact_depth": computed(2)},
+            "notes": found.notes,
+        })
+    }
+
+    /// What a person reads.
+    pub fn text(&self) -> String {
+        let found = &self.found;
+        let mut lines = vec![format!(
+            "{}: {} of {}, {} fitted with {}",
+            found.log,
+            counted(found.points.len(), "point"),
+            match found.part {
+                identify::Part::Whole => "the whole test".to_owned(),
+                part => part.name().to_owned(),
+            },
+            counted(found.constants.len(), "constant"),
+            counted(found.histories, "computed indentation"),
+        )];
+        lines.extend(rows_in_words(&found.bad_rows).map(|words| format!("  skipped: {words}")));
+        let width = found.constants.iter().map(|constant| constant.name.len()).max().unwrap_or(0).max(22);
+        for (k, constant) in found.constants.iter().enumerate() {
+            let name = &constant.name;
+            if !constant.told {
+                lines.push(format!("  {name:<width$} not told by this curve"));
+                continue;
+            }
+            let [low, high] = constant.interval.map(figure);
+            let (value, unit) = (figure(constant.value), found.units.of(constant.unit));
+            let value = format!("{value} {unit}");
+            let grid = found.grid.as_ref().map_or_else(String::new, |grid| {
+                format!("   on half of the cells: {}", figure(constant.value + grid[k]))
+            });
+            lines.push(format!("  {name:<width$} {}   95 %: {low} .. {high}{grid}", value.trim_end()));
+        }
+        lines.push(format!("  {:<width$} {:.2} % of the largest", "load off the curve", 100.0 * found.noise));
+        lines.extend(found.notes.iter().map(|note| format!("  note: {note}")));
+        lines.join("\n")
+    }
+
+    /// The points that were fitted, as CSV: line in the log, depth from the touch on, load, computed load, their difference.
+    pub fn table(&self) -> String {
+        let found = &self.found;
+        let units = found.has_units.then_some(&found.units);
+        let head = |name: &str, kind: &str| Units::heading(units, name, kind, false);
+        let mut text = format!(
+            "line,{},{},{},{}\n",
+            head("depth", "length"),
+            head("force", "force"),
+            head("computed_force", "force"),
+            head("residual", "force")
+        );
+        for (line, [depth, load, computed]) in found.lines.iter().zip(&found.points) {
+            text += &format!("{line},{depth:e},{load:e},{computed:e},{:e}\n", load - computed);
+        }
+        text
+    }
+
+    /// The page with its pictures.
+    pub fn page(&self) -> String {
+        let found = &self.found;
+        let title = format!("Indentation of {}", found.log);
+        let content = html! {
+            h1 { (title) }
+            (constants(found))
+            (figure_of(
+                &beside(found).in_page(),
+                "Measured points, their depth from the first touch on, and the curve that the solver computes; dashed: without the compliance of the frame, where there is one."
+            ))
+            (figure_of(
+                &residuals(found).in_page(),
+                "Measured less computed load over the depth. Points without a course are noise; what loading and unloading have apart, or a course along the depth, the model does not have."
+            ))
+            p {
+                "Standard deviation of the loads about the curve: " (number(100.0 * found.noise)) " % of the largest load; correlation of neighbouring residuals: "
+                (number(found.correlation)) "; " (counted(found.histories, "computed indentation")) "."
+            }
+            ul { @for note in &found.notes { li { (note) } } }
+        };
+        whole_page(&title, &content)
+    }
+}
+
+fn constants(found: &Indentation) -> Markup {
+    let row = |(k, constant): (usize, &Constant)| {
+        let [low, high] = constant.interval;
+        let cell = |value: f64| if constant.told { number(value) } else { "not told".to_owned() };
+        let coarse =
+            found.grid.as_ref().map_or_else(|| "–".to_owned(), |grid| cell(constant.value + grid[k]));
+        let name = constant.name.clone();
+        vec![name, cell(constant.value), cell(low), cell(high), coarse, found.units.of(constant.unit)]
+    };
+    let rows: Vec<Vec<String>> = found.constants.iter().enumerate().map(row).collect();
+    table(&["constant", "value", "95 % from", "to", "on half of the cells", "unit"], &rows)
+}
+
+fn axes(found: &Indentation, up: &str) -> [Label; 2] {
+    let label = |name: &str, unit: &str| Label { name: name.to_owned(), unit: Some(unit.to_owned()) };
+    [label("depth", &found.units.length), label(up, &found.units.force)]
+}
+
+fn dots(points: Vec<[f64; 2]>) -> Curve {
+    Curve { stroke: Stroke::Dots, ..Curve::line(points, "measured", 1) }
+}
+
+fn beside(found: &Indentation) -> Chart {
+    let measured = found.points.iter().map(|[depth, load, _]| [*depth, *load]).collect();
+    let computed = found.computed.iter().map(|[depth, load, _]| [*depth, *load]).collect();
+    let mut curves = vec![dots(measured), Curve::line(computed, "computed", 0)];
+    if found.frame != 0.0 {
+        let own = found.computed.iter().map(|[_, load, own]| [*own, *load]).collect();
+        curves.push(Curve::dashed(own, "computed, the contact's own", 2));
+    }
+    Chart::new("measured and computed indentation", axes(found, "load"), curves)
+}
+
+fn residuals(found: &Indentation) -> Chart {
+    let apart = found.points.iter().map(|[depth, load, computed]| [*depth, load - computed]).collect();
+    let mut chart = Chart::new(
+        "residuals of the indentation",
+        axes(found, "measured less computed load"),
+        vec![dots(apart)],
+    );
+    chart.level = Some((0.0, "computed".to_owned()));
+    chart
+}

@@ -1,0 +1,177 @@
+//! A measured indentation: which columns it has, and which of its rows are fitted.
+
+use super::error::{IdentifyError, refused};
+use super::indentation_request::{IndentationRequest, Part};
+use super::turns::range;
+use crate::case::Units;
+use crate::measured::{Kind, Role, Table, read, scales};
+
+/// Depth of the indenter, and load, among the roles.
+const DEPTH: usize = 0;
+const LOAD: usize = 1;
+
+/// What the columns of an indentation can hold.
+static ROLES: [Role; 2] = [
+    Role {
+        name: "depth",
+        known: &[
+            "depth",
+            "displacement",
+            "displacement_into_surface",
+            "indentation",
+            "indentation_depth",
+            "penetration",
+            "penetration_depth",
+            "pd",
+            "h",
+            "hc",
+            "tiefe",
+            "eindringtiefe",
+            "weg",
+        ],
+        is_needed: true,
+        kind: Kind::Length,
+        example: "depth",
+    },
+    Role {
+        name: "force",
+        known: &[
+            "force",
+            "load",
+            "load_on_sample",
+            "normal_force",
+            "p",
+            "f",
+            "fn",
+            "kraft",
+            "last",
+            "normalkraft",
+            "prüfkraft",
+        ],
+        is_needed: true,
+        kind: Kind::Force,
+        example: "load",
+    },
+];
+
+/// Rows, at the least.
+const FEWEST_ROWS: usize = 12;
+/// Load over the largest one from which on an indenter holds.
+const HOLDS: f64 = 0.99;
+
+/// Depth and load as measured, in the units of the case, pressing positive.
+pub struct Curves {
+    pub name: String,
+    pub depths: Vec<f64>,
+    pub loads: Vec<f64>,
+    /// Line of every row.
+    pub lines: Vec<usize>,
+    /// The row of the largest load: what comes before is loading.
+    pub top: usize,
+    pub has_units: bool,
+    pub bad_rows: Vec<String>,
+    pub notes: Vec<String>,
+}
+
+impl Curves {
+    /// Reads a file, and takes the part that is asked for.
+    ///
+    /// # Errors
+    /// What is wrong with it, with the line.
+    pub fn read(
+        (name, bytes): (&str, &[u8]),
+        units: Option<&Units>,
+        request: &IndentationRequest,
+    ) -> Result<Self, IdentifyError> {
+        let table = read((name, bytes), (&ROLES, "measured indentation"), &request.asked, request.strict)?;
+        let mut notes = Vec::new();
+        let scale = scales(&table, (&ROLES, &request.asked), units, &mut notes)?;
+        let of =
+            |role: usize| -> Vec<f64> { table.of(role).iter().map(|value| value * scale[role]).collect() };
+        let (mut depths, mut loads) = (of(DEPTH), of(LOAD));
+        enough(&table)?;
+        let [low, high] = range(&loads);
+        if low.abs() > high.abs() {
+            loads.iter_mut().for_each(|load| *load = -*load);
+            notes.push("the load is largest below zero: its sign was turned".to_owned());
+        }
+        if !deepens(&depths, &loads) {
+            depths.iter_mut().for_each(|depth| *depth = -*depth);
+            notes.push("the depth falls where the load grows: its sign was turned".to_owned());
+        }
+        let has_units = table.columns.iter().flatten().any(|column| column.unit.is_some());
+        let bad_rows = table.bad.into_iter().map(|row| row.what).collect();
+        let whole = Self {
+            name: name.to_owned(),
+            depths,
+            loads,
+            lines: table.lines,
+            top: 0,
+            has_units,
+            bad_rows,
+            notes,
+        };
+        whole.part(request.part)
+    }
+
+    /// A part of it.
+    fn part(mut self, part: Part) -> Result<Self, IdentifyError> {
+        let [_, most] = range(&self.loads);
+        let holds = |load: &f64| *load >= HOLDS * most;
+        let first = self.loads.iter().position(holds).unwrap_or(0);
+        let last = self.loads.iter().rposition(holds).unwrap_or(0);
+        let rows = match part {
+            Part::Whole => 0..self.loads.len(),
+            Part::Loading => 0..first + 1,
+            Part::Unloading => last..self.loads.len(),
+        };
+        if rows.len() < FEWEST_ROWS {
+            let what = format!(
+                "{} has {} rows (lines {} to {}): a fit needs at least {FEWEST_ROWS}",
+                part.name(),
+                rows.len(),
+                self.lines[rows.start],
+                self.lines[rows.end - 1]
+            );
+            return Err(refused(&self.name, &what, "fit the whole test, or the other part"));
+        }
+        for values in [&mut self.depths, &mut self.loads] {
+            *values = values[rows.clone()].to_vec();
+        }
+        self.lines = self.lines[rows.clone()].to_vec();
+        self.top = usize::midpoint(first, last).saturating_sub(rows.start).min(rows.len());
+        Ok(self)
+    }
+}
+
+/// Whether there are rows for a curve, and something changes in them.
+fn enough(table: &Table) -> Result<(), IdentifyError> {
+    let rows = table.lines.len();
+    if rows < FEWEST_ROWS {
+        let what = format!(
+            "{rows} row{} of numbers: an indentation needs at least {FEWEST_ROWS} points",
+            if rows == 1 { "" } else { "s" }
+        );
+        return Err(refused(&table.name, &what, "a hundred points serve well"));
+    }
+    for column in table.columns.iter().flatten() {
+        if column.values.iter().all(|value| *value == column.values[0]) {
+            let what = format!(
+                "column {:?} is {:?} in all lines from {} to {}: nothing was measured there",
+                column.name,
+                column.values[0],
+                table.lines[0],
+                table.lines[rows - 1]
+            );
+            return Err(refused(&table.name, &what, "choose another column with --columns"));
+        }
+    }
+    Ok(())
+}
+
+/// Whether depth and load grow together: the sign of their covariance.
+fn deepens(depths: &[f64], loads: &[f64]) -> bool {
+    let count = depths.len() as f64;
+    let [depth, load] = [depths, loads].map(|values| values.iter().sum::<f64>() / count);
+    depths.iter().zip(loads).map(|(d, p)| (d - depth) * (p - load)).sum::<f64>() >= 0.0
+}
