@@ -2,6 +2,7 @@
 
 use fret_core::case::Units;
 use fret_core::identify::{self, Constant, Indentation, IndentationRequest, Numbers};
+use fret_core::model::Dimension;
 use maud::{Markup, html};
 use serde_json::{Value, json};
 
@@ -139,7 +140,7 @@ impl IndentationAnswer {
     pub fn table(&self) -> String {
         let found = &self.found;
         let units = found.has_units.then_some(&found.units);
-        let head = |name: &str, kind: &str| Units::heading(units, name, kind, false);
+        let head = |name: &str, kind: &str| Units::heading(units, name, kind, Dimension::Plane);
         let mut text = format!(
             "line,{},{},{},{}\n",
             head("depth", "length"),

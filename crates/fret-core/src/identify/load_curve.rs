@@ -7,7 +7,7 @@ const STEPS: usize = 60;
 const LEAST_SLOPE: f64 = 0.05;
 
 /// A function of the logarithm of the depth: cubics between points, whose slopes are those of the parabola through three neighbours; lines
-/// beyond. It is linear in the values at the points, so that its derivatives are those of the values, carried on in the same way.
+/// beyond. It is linear in the values at the points, so that its derivatives are those of the values, found in the same way.
 #[derive(Debug, Clone)]
 struct Cubics {
     /// Place, value and slope.

@@ -229,7 +229,11 @@ impl<'a> IncrementProblem<'a> {
             return SolveError::AboveFullSlip { fraction };
         }
         let asked = x.hypot(y) * self.grid.cell_area();
-        SolveError::AboveSliding { asked, bound: fraction * asked, has_strength: self.friction.has_strength() }
+        SolveError::AboveSliding {
+            asked,
+            bound: fraction * asked,
+            has_strength: self.friction.has_strength(),
+        }
     }
 
     /// Sums of shear times mode that are prescribed as they are; zero for the others [pressure].

@@ -25,7 +25,7 @@ pub struct SlidingLimit {
 }
 
 impl SlidingLimit {
-    /// Refuses what is more than is carried on the way to sliding.
+    /// Refuses more than a contact carries before it slides.
     ///
     /// # Errors
     /// When it is.

@@ -9,7 +9,7 @@ use super::super::settings::SolveError;
 use super::problem::{Ending, NormalIteration};
 use crate::fields::{CellRule, CellSize, Reals, add_scaled, dot, each_cell, largest_of, sum};
 
-/// When the contact changes, and how long it may change in vain.
+/// When the contact changes, and how often it may change without gain.
 #[derive(Debug, Clone, Copy)]
 pub struct Care {
     /// The contact changes when the residual on it is this much smaller than its violations.

@@ -32,8 +32,8 @@ const MAX_STALLED: usize = 20;
 /// Solves the normal equations from a pressure without tension and with the force prescribed. Both fields end at the solution: pressure [pressure] and its normal displacement
 /// [length].
 ///
-/// Projected conjugate gradients come first, the active set where the response is stiff; each takes over when the other stalls, with more patience
-/// and more care each time.
+/// Projected conjugate gradients come first, the active set where the response is stiff; each takes over when the other stalls, waits longer and takes
+/// more care each time.
 ///
 /// # Errors
 /// When the iteration does not converge or is stopped.
