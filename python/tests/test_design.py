@@ -162,6 +162,18 @@ def test_a_case_on_the_way_that_is_not_solved_names_its_numbers() -> None:
     assert caught.value.evaluations[0].numbers == {"profile.sphere.radius": RADIUS}
 
 
+def test_cells_about_to_change_their_state_are_told() -> None:
+    # A force that turns back by a ten-millionth: the cells that slid stick, as near to their bound.
+    pytest.importorskip("xarray")
+    back = {"tangential_force": [0.25 * (1 - 1e-7), 0.0], "increments": 1}
+    rub = {"tangential_force": [0.25, 0.0], "increments": 4}
+    case = {**COATED, "solver": {"tolerance": 1e-10}, "load": [COATED["load"][0], rub, back]}
+    found = fretting.design(case, by={THICKNESS: (1e-6, 8e-6)}, minimize="max_pressure")
+    assert any(note.startswith("increment 8: ") and "another state" in note for note in found.notes), found.notes
+    told = fretting.first_order(case, {THICKNESS: fretting.Normal(2e-6, 1e-7)}, of="max_pressure")
+    assert told.attrs["note"].startswith("increment 8: ")
+
+
 def test_an_objective_of_nothing_is_refused() -> None:
     # Without a tangential force nothing is dissipated, whatever the film.
     case = {**COATED, "load": COATED["load"][:1]}
