@@ -21,9 +21,12 @@ from fretting import analytic, plot
 from fretting._core import __version__
 from fretting._points import Parameter
 from fretting.case_types import Case
+from fretting.designing import Design, design
 from fretting.differentiating import gradient, vjp
 from fretting.errors import (
     CaseError,
+    DesignError,
+    Evaluation,
     FrettingError,
     FrettingWarning,
     MissingFileError,
@@ -39,6 +42,7 @@ from fretting.indenting import Indentation, identify_indentation
 from fretting.kernels import Convolution, frequency_response, influence_coefficients
 from fretting.loading import open_results
 from fretting.planning import Plan, plan
+from fretting.propagating import first_order
 from fretting.simulation import run
 from fretting.studying import study
 from fretting.sweeping import sweep
@@ -48,7 +52,10 @@ __all__ = [
     "Case",
     "CaseError",
     "Convolution",
+    "Design",
+    "DesignError",
     "Distribution",
+    "Evaluation",
     "FrettingError",
     "FrettingWarning",
     "History",
@@ -69,6 +76,8 @@ __all__ = [
     "Weibull",
     "__version__",
     "analytic",
+    "design",
+    "first_order",
     "frequency_response",
     "gradient",
     "identify",

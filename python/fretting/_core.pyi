@@ -16,7 +16,9 @@ __all__ = [
     "__version__",
     "cattaneo_line",
     "cattaneo_mindlin",
+    "check_derivatives",
     "check_memory",
+    "check_results",
     "check_threads",
     "coating_fracture",
     "command_line",
@@ -27,6 +29,7 @@ __all__ = [
     "equibiaxial_sphere",
     "expected",
     "fatigue",
+    "first_order",
     "flat_punch",
     "frequency_response",
     "gradient",
@@ -40,6 +43,7 @@ __all__ = [
     "memory_needed",
     "mindlin_deresiewicz",
     "mindlin_deresiewicz_at",
+    "moments",
     "no_slip_punch",
     "no_slip_sphere",
     "plan",
@@ -169,7 +173,9 @@ def gradient(
     of: list[str],
     by: list[str],
     threads: int | None,
-) -> list[tuple[str, float, dict[str, float]]]: ...
+) -> tuple[list[tuple[str, float, dict[str, float]]], tuple[int, int, int] | None]: ...
+def check_results(of: list[str]) -> None: ...
+def check_derivatives(case: Case, of: list[str], by: list[str]) -> None: ...
 def pulled_back(
     case: Case,
     weights: list[tuple[str, float]],
@@ -204,6 +210,8 @@ def influence_coefficients(
     spacing: tuple[float, float],
 ) -> dict[str, npt.NDArray[np.float64]]: ...
 def sample_rows(design: str) -> list[list[float]]: ...
+def moments(distributions: str) -> list[list[float]]: ...
+def first_order(derivatives: list[float], deviations: list[float]) -> tuple[float, list[float]]: ...
 def quantile_fractions() -> list[float]: ...
 def statistics(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
 def sobol_indices(values: npt.NDArray[np.float64], count: int) -> npt.NDArray[np.float64]: ...

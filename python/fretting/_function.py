@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from fretting import _case
+from fretting import _case, _core
 from fretting._arguments import texts
 from fretting._arrays import Reals
 from fretting._points import Table, put
-from fretting.differentiating import gradient, value_of
+from fretting.differentiating import told, value_of
 from fretting.simulation import run
 
 
@@ -24,6 +24,7 @@ class Results:
         self.of, self.by = texts("of", of), texts("by", by)
         if not self.of or not self.by:
             raise ValueError("of, by: expected at least one result and one number of the case")
+        _core.check_results(self.of)
         self._table = _case.table_of(case)
         self._places = [re.findall(r"\w+", path) for path in self.by]
         for number, (path, place) in enumerate(zip(self.by, self._places, strict=True)):
@@ -32,6 +33,8 @@ class Results:
             if not isinstance(_at(self._table, place), int | float):
                 raise ValueError(f"by: {path}: no number of the case as it is written; such as 'friction.coefficient'")
         self._threads = threads
+        self.start = [float(_at(self._table, place)) for place in self._places]
+        """The numbers of the case as it is."""
 
     def at(self, numbers: Reals) -> Table:
         """Return the case with these numbers."""
@@ -46,15 +49,23 @@ class Results:
         return case
 
     def values(self, numbers: Reals) -> Reals:
-        """Return the results."""
-        history = run(self.at(numbers), threads=self._threads)
+        """Return the results; what has no derivatives is refused here, too."""
+        case = self.at(numbers)
+        _core.check_derivatives(_case.read(case), self.of, self.by)
+        history = run(case, threads=self._threads)
         return np.array([value_of(history.increments, history.cycles, name) for name in self.of])
 
     def differentiated(self, numbers: Reals) -> tuple[Reals, Reals]:
         """Return the results, and the matrix of their derivatives, shape (results, numbers)."""
-        found = gradient(self.at(numbers), of=self.of, by=self.by, threads=self._threads)
+        values, matrix, _ = self.told(numbers)
+        return values, matrix
+
+    def told(self, numbers: Reals) -> tuple[Reals, Reals, tuple[int, int, int] | None]:
+        """Return the same, and where most cells are about to change their state: increment, cells, cells in contact."""
+        found, near = told(self.at(numbers), self.of, self.by, self._threads)
         rows = [found[name] for name in self.of]
-        return np.array([row["value"] for row in rows]), np.array([[row[path] for path in self.by] for row in rows])
+        matrix = np.array([[row[path] for path in self.by] for row in rows])
+        return np.array([row["value"] for row in rows]), matrix, near
 
 
 def _at(table: Any, place: list[str]) -> Any:

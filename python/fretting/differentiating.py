@@ -49,8 +49,27 @@ def gradient(
     RunError
         When the run fails, or the linear equations of an increment are not solved.
     """
-    found = _core.gradient(_case.read(case), texts("of", of), texts("by", by), threads)
-    return {name: {"value": value, **derivatives} for name, value, derivatives in found}
+    return told(case, texts("of", of), texts("by", by), threads)[0]
+
+
+def told(
+    case: _case.CaseLike, of: list[str], by: list[str], threads: int | None
+) -> tuple[dict[str, dict[str, float]], tuple[int, int, int] | None]:
+    """Values and derivatives of results, and where most cells are about to change their state.
+
+    The latter is the increment, how many cells there are, and how many are in contact; None where there are none.
+    """
+    found, near = _core.gradient(_case.read(case), of, by, threads)
+    return {name: {"value": value, **derivatives} for name, value, derivatives in found}, near
+
+
+def near_in_words(near: tuple[int, int, int]) -> str:
+    """What cells that are about to change their state mean for derivatives."""
+    increment, cells, contact = near
+    return (
+        f"increment {increment}: {cells} of {contact} cells are within a millionth of another state (open, stick, "
+        "slip): derivatives on either side of the case differ there"
+    )
 
 
 def vjp(
@@ -114,8 +133,11 @@ def vjp(
 
 
 def value_of(increments: Mapping[str, Any], cycles: Mapping[str, Any], name: str) -> float:
-    """Return a result of a history by its name."""
+    """Return a result of a history by its name, which is one of results with derivatives."""
     found = re.fullmatch(r"(increments|cycles)\[(\d+)\]\.(\w+)", name)
     if found is None:
         return float(increments[name][-1])
-    return float((increments if found[1] == "increments" else cycles)[found[3]][int(found[2])])
+    column = (increments if found[1] == "increments" else cycles)[found[3]]
+    if int(found[2]) >= len(column):
+        raise ValueError(f"of {name!r}: the history has {len(column)} {found[1]}, from 0")
+    return float(column[int(found[2])])

@@ -2,6 +2,7 @@
 
 import warnings
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, TypedDict
 
 if TYPE_CHECKING:
@@ -102,6 +103,36 @@ class RunError(FrettingError, RuntimeError):
         super().__init__(message)
         self.increment = increment
         self.history = None
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """A case that was run on the way to a design."""
+
+    numbers: dict[str, float]
+    """Its numbers, by path."""
+    results: dict[str, float]
+    """Its results."""
+    derivatives: dict[str, dict[str, float]]
+    """Their derivatives by the numbers."""
+
+
+class DesignError(FrettingError, RuntimeError):
+    """Raised when a design is not found: no optimum reached, limits that cannot be met, a case without an answer.
+
+    Attributes
+    ----------
+    evaluations : list of Evaluation
+        All cases that were run, in their order, with numbers, results and derivatives.
+    """
+
+    __module__ = "fretting"
+
+    evaluations: list[Evaluation]
+
+    def __init__(self, message: str, evaluations: Iterable[Evaluation] = ()) -> None:
+        super().__init__(message)
+        self.evaluations = list(evaluations)
 
 
 class OutOfMemoryError(RunError, MemoryError):

@@ -39,7 +39,7 @@ def results(
     CaseError
         When the case cannot be read.
     ValueError
-        Without a result or a number.
+        Without a result or a number, or of a result that has no derivatives.
     """
     host = Results(case, of, by, threads)
     rows, columns = len(host.of), len(host.by)

@@ -124,6 +124,26 @@ def test_a_function_of_numbers_says_which_numbers_it_does_not_know() -> None:
         Results(CASE, "max_pressure", "profile.sphere.radius", None).values(np.array([1.0, 2.0]))
 
 
+def test_a_function_of_numbers_refuses_results_without_derivatives() -> None:
+    by = "profile.sphere.radius"
+    for of, words in (
+        ("contact_area", "two runs"),
+        ("pressure", "max_pressure"),
+        ("cycles[0].stick_area", "dissipated"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            Results(CASE, of, by, None)
+    for case, of, words in (
+        (CASE, "increments[40].shift_x", "has 12 increments"),
+        (CASE, "cycles[1].dissipated_energy", "has 1 cycles"),
+        ({**CASE, "wear": {"coefficient": 1e-13}}, "max_pressure", r"\[wear\]"),
+    ):
+        function = Results(case, of, by, None)
+        for answer in (function.values, function.differentiated):
+            with pytest.raises(ValueError, match=words):
+                answer(np.array([10e-3]))
+
+
 def test_a_history_that_started_from_another_is_not_pulled_back() -> None:
     first = fretting.run({**CASE, "load": CASE["load"][:1]})
     rub = {"normal_force": 12.0, "tangential_force": [1.5, 0.0], "increments": 4}

@@ -1,6 +1,7 @@
 //! What can be typed after `fret`. What it does lives in `commands`.
 
 use std::path::PathBuf;
+use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
@@ -115,12 +116,44 @@ pub struct SensitivityArguments {
     /// (`cycles[0].dissipated_energy`); once for each [default: `max_pressure`, `approach`, and with friction `max_shear`, `dissipated_energy`]
     #[arg(long, value_name = "RESULT")]
     pub of: Vec<String>,
-    /// A number of the case by its path (`friction.coefficient`, `lower.coatings[0].young`); once for each [default: all there are]
+    /// A number of the case by its path (`friction.coefficient`, `lower.coatings[0].young`); once for each [default: all there are, or those
+    /// with a scatter]
     #[arg(long, value_name = "PATH")]
     pub by: Vec<String>,
+    /// The standard deviation of a number, also in per cent of it (`lower.coatings[0].young=10%`); once for each: prints that of the results, to
+    /// first order, and what each number brings
+    #[arg(long, value_name = "PATH=DEVIATION")]
+    pub scatter: Vec<Scatter>,
     /// Number of threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,
+}
+
+/// A number of a case with its standard deviation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scatter {
+    /// Its path.
+    pub path: String,
+    /// The deviation, of the unit of the number, or relative to it.
+    pub deviation: f64,
+    /// Whether it is relative.
+    pub relative: bool,
+}
+
+impl FromStr for Scatter {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let form = "expected a number of the case and its standard deviation, friction.coefficient=0.03 or friction.coefficient=10%";
+        let (path, deviation) = text.rsplit_once('=').ok_or(form)?;
+        let (number, unit) = deviation.strip_suffix('%').map_or((deviation, 1.0), |number| (number, 0.01));
+        let number: f64 = number.trim().parse().map_err(|_| form)?;
+        if !(number.is_finite() && number > 0.0) {
+            return Err(format!("{deviation}: a standard deviation is positive"));
+        }
+        let relative = deviation.ends_with('%');
+        Ok(Self { path: path.trim().to_owned(), deviation: number * unit, relative })
+    }
 }
 
 /// How to solve a case.

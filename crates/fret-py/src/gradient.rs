@@ -16,7 +16,10 @@ use crate::threads::{self, Threads};
 /// A result's name, its value, and its derivatives by path.
 type Found = Vec<(String, f64, BTreeMap<String, f64>)>;
 
-/// Derivatives of results by numbers of a case; all numbers where none is named.
+/// Where most cells are about to change their state: the increment, how many cells, and how many are in contact.
+type Near = Option<(usize, usize, usize)>;
+
+/// Derivatives of results by numbers of a case, all numbers where none is named; and where most cells are about to change their state.
 #[pyfunction]
 pub fn gradient(
     py: Python<'_>,
@@ -24,14 +27,28 @@ pub fn gradient(
     of: Vec<String>,
     by: Vec<String>,
     threads: Threads,
-) -> PyResult<Found> {
+) -> PyResult<(Found, Near)> {
     let request = Request { of, by, direction: None };
     let found = found(py, case, threads, |plan, guest| sensitivity::gradient(plan, &request, guest))?;
     let paths: Vec<String> = found.parameters.iter().map(|entry| entry.path().to_owned()).collect();
     let of = |gradient: sensitivity::Gradient| {
         (gradient.of, gradient.value, paths.iter().cloned().zip(gradient.by).collect())
     };
-    Ok(found.gradients.into_iter().map(of).collect())
+    let near = found.near_events.map(|near| (near.increment, near.cells, near.contact));
+    Ok((found.gradients.into_iter().map(of).collect(), near))
+}
+
+/// Refuses names that are none of results with derivatives.
+#[pyfunction]
+pub fn check_results(of: Vec<String>) -> PyResult<()> {
+    of.iter().try_for_each(|name| sensitivity::check_name(name)).map_err(ended)
+}
+
+/// Refuses what has no derivatives, as far as that can be said before the run.
+#[pyfunction]
+pub fn check_derivatives(py: Python<'_>, case: &Case, of: Vec<String>, by: Vec<String>) -> PyResult<()> {
+    let plan = py.detach(|| case.planned()).map_err(|error| refused(&error))?;
+    sensitivity::check_asked(&plan, &of, &by).map_err(ended)
 }
 
 /// Derivatives of a sum of results, each times its weight, by numbers of a case; by all numbers where none is named.

@@ -47,7 +47,7 @@ mod _core {
     #[pymodule_export]
     use crate::fatigue::{coating_fracture, crack, fatigue};
     #[pymodule_export]
-    use crate::gradient::{gradient, pulled_back};
+    use crate::gradient::{check_derivatives, check_results, gradient, pulled_back};
     #[pymodule_export]
     use crate::history::{History, vocabulary};
     #[pymodule_export]
@@ -71,7 +71,9 @@ mod _core {
     #[pymodule_export]
     use crate::threads::{check_memory, check_threads};
     #[pymodule_export]
-    use crate::uncertainty::{quantile_fractions, sample_rows, sobol_indices, statistics};
+    use crate::uncertainty::{
+        first_order, moments, quantile_fractions, sample_rows, sobol_indices, statistics,
+    };
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -1,6 +1,6 @@
 //! Samples of uncertain numbers, and what they say.
 
-use fret_core::uncertainty::{self, QUANTILES, SampleDesign};
+use fret_core::uncertainty::{self, Distribution, QUANTILES, SampleDesign};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::{Bound, PyResult, Python, pyfunction};
 
@@ -14,6 +14,22 @@ pub fn sample_rows(design: &str) -> PyResult<Vec<Vec<f64>>> {
         distribution.checked().map_err(bad_value)?;
     }
     design.rows().map_err(bad_value)
+}
+
+/// Mean and standard deviation of distributions given as JSON text.
+#[pyfunction]
+pub fn moments(distributions: &str) -> PyResult<Vec<[f64; 2]>> {
+    let distributions: Vec<Distribution> = serde_json::from_str(distributions).map_err(bad_value)?;
+    let of = |distribution: Distribution| distribution.checked().map(|checked| checked.moments());
+    distributions.into_iter().map(|distribution| of(distribution).map_err(bad_value)).collect()
+}
+
+/// Standard deviation to first order from derivatives and standard deviations of numbers, and the fraction of the variance of each.
+#[pyfunction]
+#[expect(clippy::needless_pass_by_value, reason = "as Python gives them")]
+pub fn first_order(derivatives: Vec<f64>, deviations: Vec<f64>) -> (f64, Vec<f64>) {
+    let found = uncertainty::first_order(&derivatives, &deviations);
+    (found.deviation, found.fractions)
 }
 
 /// Fractions of the quantiles that [`statistics`] gives.

@@ -1,4 +1,5 @@
-//! `fret sensitivity`: what the results of a case depend on, and how much: derivatives by the numbers of the case.
+//! `fret sensitivity`: what the results of a case depend on, and how much: derivatives by the numbers of the case, and what a scatter of these
+//! makes of the results.
 
 use std::fmt::Write;
 
@@ -6,9 +7,10 @@ use fret_core::plan::Plan;
 use fret_core::sensitivity::{
     Direction, Gradient, NearEvents, Request, Sensitivities, SensitivityError, gradient,
 };
+use fret_core::uncertainty::{FirstOrder, first_order};
 use serde_json::{Map, Value, json};
 
-use crate::arguments::SensitivityArguments;
+use crate::arguments::{Scatter, SensitivityArguments};
 use crate::failure::Failure;
 use crate::figures::figure;
 use crate::interrupt::{self, Listener};
@@ -27,9 +29,81 @@ pub fn sensitivity(arguments: &SensitivityArguments, as_json: bool) -> Result<()
     interrupt::listen();
     let pool = threads::pool(threads::asked(arguments.threads))?;
     let of = if arguments.of.is_empty() { usual_results(&plan) } else { arguments.of.clone() };
-    let request = Request { of, by: arguments.by.clone(), direction: None };
+    let scattered = arguments.scatter.iter().map(|scatter| scatter.path.clone());
+    let by = if arguments.by.is_empty() { scattered.collect() } else { arguments.by.clone() };
+    let request = Request { of, by, direction: None };
     let found = pool.install(|| gradient(&plan, &request, &mut Listener)).map_err(refused)?;
-    if as_json { terminal::answer_in_json(&record(&found)) } else { terminal::answer(&table(&found)) }
+    let spreads = spreads(&found, &arguments.scatter)?;
+    if as_json {
+        let mut record = record(&found);
+        if !spreads.is_empty() {
+            record["first_order"] = spreads.iter().map(Spread::entry).collect();
+        }
+        return terminal::answer_in_json(&record);
+    }
+    let parts = spreads.iter().map(Spread::part);
+    terminal::answer(&[table(&found)].into_iter().chain(parts).collect::<Vec<_>>().join("\n\n"))
+}
+
+/// How much a result scatters, to first order.
+struct Spread<'a> {
+    gradient: &'a Gradient,
+    scatter: &'a [Scatter],
+    found: FirstOrder,
+}
+
+/// Of every result; none without a scatter of numbers.
+fn spreads<'a>(found: &'a Sensitivities, scatter: &'a [Scatter]) -> Result<Vec<Spread<'a>>, Failure> {
+    let refused =
+        |what: String| Failure::Call(what, "one --scatter for each number, also of --by".to_owned());
+    let mut places = Vec::new();
+    let mut deviations = Vec::new();
+    for Scatter { path, deviation, relative } in scatter {
+        let place = found.parameters.iter().position(|entry| entry.path() == path);
+        let place =
+            place.ok_or_else(|| refused(format!("--scatter {path}: not among the numbers of --by")))?;
+        if places.contains(&place) {
+            return Err(refused(format!("--scatter {path}: given twice")));
+        }
+        places.push(place);
+        let of = if *relative { found.parameters[place].value().abs() } else { 1.0 };
+        if of == 0.0 {
+            return Err(refused(format!("--scatter {path}: the number is 0, and so is any part of it")));
+        }
+        deviations.push(deviation * of);
+    }
+    if scatter.is_empty() {
+        return Ok(Vec::new());
+    }
+    let of = |gradient: &'a Gradient| {
+        let derivatives: Vec<f64> = places.iter().map(|&place| gradient.by[place]).collect();
+        Spread { gradient, scatter, found: first_order(&derivatives, &deviations) }
+    };
+    Ok(found.gradients.iter().map(of).collect())
+}
+
+impl Spread<'_> {
+    /// The scatter of a result, for programs.
+    fn entry(&self) -> (String, Value) {
+        let fractions = self.scatter.iter().zip(&self.found.fractions);
+        let fractions: Map<String, Value> =
+            fractions.map(|(entry, of)| (entry.path.clone(), json!(of))).collect();
+        (self.gradient.of.clone(), json!({ "deviation": self.found.deviation, "fractions": fractions }))
+    }
+
+    /// The same for a person: the deviation, and the fractions of its square.
+    fn part(&self) -> String {
+        let Gradient { of, value, .. } = self.gradient;
+        let deviation = self.found.deviation;
+        let relative = logarithmic(deviation, *value, 100.0).map(f64::abs);
+        let relative = relative.map_or_else(String::new, |per_cent| format!(" ({} %)", figure(per_cent)));
+        let mut text = format!("{of}: standard deviation {}{relative}, to first order", figure(deviation));
+        let width = self.scatter.iter().map(|entry| entry.path.len()).max().unwrap_or(0);
+        for (entry, fraction) in self.scatter.iter().zip(&self.found.fractions) {
+            let _ = write!(text, "\n  {:<width$}  {:>6.1} % of the variance", entry.path, 100.0 * fraction);
+        }
+        text
+    }
 }
 
 /// The results that are asked for where nothing is said.

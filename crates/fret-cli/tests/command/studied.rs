@@ -338,3 +338,37 @@ fn a_study_names_the_quantities_that_it_shows() {
     }
     assert!(columns.contains("approach") && !columns.contains("shift"), "{columns}");
 }
+
+/// Hertz: the pressure is as the power 1/3 of the force and 2/3 of the modulus. 2 and 3 per cent of these, within 0.5 % on 64 x 64 cells.
+#[test]
+fn a_scatter_of_numbers_is_told_to_first_order() {
+    let bench = Bench::new("scatter");
+    bench.file("case.toml", &HERTZ.replace("[32, 32]", "[64, 64]"));
+    let call = |more: &[&str]| {
+        let call =
+            ["sensitivity", "case.toml", "--of", "max_pressure", "--scatter", "load[0].normal_force=6%"];
+        bench.fret(&[&call, more].concat())
+    };
+    let answer = call(&["--scatter", "lower.substrate.young=0.045", "--json"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    let said: Value = serde_json::from_str(&answer.out).unwrap();
+    let number = |value: &Value| value.as_f64().unwrap();
+    let told = &said["first_order"]["max_pressure"];
+    let relative = number(&told["deviation"]) / number(&said["of"]["max_pressure"]["value"]);
+    assert!((relative / 0.02_f64.hypot(0.03) - 1.0).abs() < 0.005, "{relative}");
+    assert!((number(&told["fractions"]["load[0].normal_force"]) - 4.0 / 13.0).abs() < 0.005, "{told}");
+    let answer = call(&["--scatter", "lower.substrate.young=0.045"]);
+    for words in ["max_pressure: standard deviation", "to first order", "% of the variance"] {
+        assert!(answer.out.contains(words), "{words}: {}", answer.out);
+    }
+    for (more, words) in [
+        (["--scatter", "load[0].normal_force=1"], "given twice"),
+        (["--scatter", "lower.substrate.young=-1"], "a standard deviation is positive"),
+        (["--scatter", "lower.substrate.young"], "friction.coefficient=0.03"),
+        (["--by", "lower.substrate.young"], "not among the numbers of --by"),
+    ] {
+        let answer = call(&more);
+        assert_ne!(answer.code, Some(0), "{words}");
+        assert!(answer.err.contains(words), "{words}: {}", answer.err);
+    }
+}

@@ -12,6 +12,9 @@
 //! It is that of the middles of the neighbouring cycles, where there are two; else it counts in the intervals with as much as the
 //! noise hides and a quarter of the drift (an exponential approach with a time constant of half a cycle), or is fitted where the loop tells it.
 
+use std::cell::RefCell;
+use std::rc::Rc;
+
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
 use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
@@ -73,8 +76,10 @@ pub fn fit<'a>(
         noises: noises(cycle, units),
         falling: Vec::new(),
         feet: Vec::new(),
-        now: Some(first),
+        now: None,
+        loops: RefCell::default(),
     };
+    fit.now = fit.keep(&fit.parameters, Some(first));
     fit.parameters[3] = f64::midpoint(low, high) / fit.units[0];
     fit.parameters[5] = f64::midpoint(bottom, top) / fit.units[1];
     fit = fit.minimized(name)?;
@@ -105,8 +110,14 @@ pub struct Fit<'a> {
     falling: Vec<bool>,
     feet: Vec<Foot>,
     /// The loop of the parameters.
-    pub now: Option<Loop>,
+    pub now: Option<Rc<Loop>>,
+    /// The loops that were solved, by their constants; `None` where there is no solution. The rounds, and what is asked about the solution after
+    /// them, meet the same ones again.
+    loops: RefCell<Vec<(Constants, Option<Rc<Loop>>)>>,
 }
+
+/// Friction, stiffness of the rig and amplitude, and the value of the key.
+type Constants = ([f64; 3], Option<f64>);
 
 impl Fit<'_> {
     fn minimized(mut self, name: &str) -> Result<Self, IdentifyError> {
@@ -150,15 +161,27 @@ impl Fit<'_> {
     }
 
     /// Friction, stiffness of the rig and amplitude, and the value of the key.
-    pub fn constants(&self, parameters: &DVector<f64>) -> ([f64; 3], Option<f64>) {
+    pub fn constants(&self, parameters: &DVector<f64>) -> Constants {
         let constants =
             [0, 1, 2].map(|k| self.start[k] * parameters[k].clamp(-FARTHEST[k], FARTHEST[k]).exp());
         (constants, self.value.map(|value| value * parameters[6].clamp(-3.0, 3.0).exp()))
     }
 
-    fn solve(&self, parameters: &DVector<f64>) -> Option<Loop> {
-        let ([friction, stiffness, amplitude], value) = self.constants(parameters);
-        self.model.loop_of(friction, stiffness, amplitude, value).ok()
+    fn solve(&self, parameters: &DVector<f64>) -> Option<Rc<Loop>> {
+        let constants = self.constants(parameters);
+        let known =
+            self.loops.borrow().iter().find(|(known, _)| *known == constants).map(|(_, found)| found.clone());
+        known.unwrap_or_else(|| {
+            let ([friction, stiffness, amplitude], value) = constants;
+            self.keep(parameters, self.model.loop_of(friction, stiffness, amplitude, value).ok())
+        })
+    }
+
+    /// Keeps a loop that was solved.
+    fn keep(&self, parameters: &DVector<f64>, found: Option<Loop>) -> Option<Rc<Loop>> {
+        let found = found.map(Rc::new);
+        self.loops.borrow_mut().push((self.constants(parameters), found.clone()));
+        found
     }
 
     /// Displacements without offset and drift.

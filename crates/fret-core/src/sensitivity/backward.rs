@@ -136,12 +136,6 @@ pub(super) fn backward(
         if visit(&steps[number]).is_break() {
             return Err(RunError::Interrupted { increment: number }.into());
         }
-        if gathered.iter().all(|gathered| gathered.changes[0].is_none()) {
-            for gathered in &mut gathered {
-                gathered.changes.rotate_left(1);
-            }
-            continue;
-        }
         let before =
             [1, 2].map(|back| number.checked_sub(back).map_or(&past.start, |at| &past.increments[at].1));
         let increment = Increment::new(scene, (&steps[number].record, load), now, before);
@@ -150,6 +144,12 @@ pub(super) fn backward(
         // The earliest of those with as many, as forward.
         if near.cells > 0 && near.cells >= most.map_or(0, |most| most.cells) {
             most = Some(near);
+        }
+        if gathered.iter().all(|gathered| gathered.changes[0].is_none()) {
+            for gathered in &mut gathered {
+                gathered.changes.rotate_left(1);
+            }
+            continue;
         }
         let by_response: Vec<Option<Fields>> = responses
             .iter_mut()

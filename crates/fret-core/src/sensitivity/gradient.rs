@@ -59,7 +59,8 @@ pub struct Sensitivities {
     pub parameters: Vec<Parameter>,
     /// Of what.
     pub gradients: Vec<Gradient>,
-    /// Where most cells are about to change their state, so that derivatives on either side differ; `None`: nowhere any.
+    /// Where most cells are about to change their state, so that derivatives on either side differ, up to the last increment that is asked for;
+    /// `None`: nowhere any.
     pub near_events: Option<NearEvents>,
     /// Which way they were found.
     pub direction: Direction,
@@ -93,6 +94,31 @@ pub fn pulled_back(
     derivatives(plan, &[(names.join(" + "), weights.to_vec())], (by, None), observer)
 }
 
+/// Whether results have derivatives by numbers of the case, as far as that can be said before the run.
+///
+/// # Errors
+/// As [`gradient`] without a run.
+pub fn check_asked(plan: &Plan, of: &[String], by: &[String]) -> Result<(), SensitivityError> {
+    asked(plan, of.iter().map(String::as_str), by).map(drop)
+}
+
+/// The numbers that are asked for, all where none is named; refuses what has no derivatives.
+fn asked<'a>(
+    plan: &Plan,
+    of: impl Iterator<Item = &'a str>,
+    by: &[String],
+) -> Result<Vec<Parameter>, SensitivityError> {
+    check(plan)?;
+    let parameters: Vec<Parameter> = if by.is_empty() {
+        Parameter::all_of(&plan.case)
+    } else {
+        by.iter().map(|path| Parameter::new(path, &plan.case)).collect::<Result<_, _>>()?
+    };
+    let objectives = of.map(Objective::new).collect::<Result<Vec<_>, _>>()?;
+    check_request(plan, &parameters, &objectives)?;
+    Ok(parameters)
+}
+
 /// A sum of results: its name, and each of them with its weight.
 type Sum = (String, Vec<(String, f64)>);
 
@@ -102,15 +128,8 @@ fn derivatives(
     (by, direction): (&[String], Option<Direction>),
     observer: &mut dyn Observer,
 ) -> Result<Sensitivities, SensitivityError> {
-    check(plan)?;
-    let parameters = if by.is_empty() {
-        Parameter::all_of(&plan.case)
-    } else {
-        by.iter().map(|path| Parameter::new(path, &plan.case)).collect::<Result<_, _>>()?
-    };
-    let names = || sums.iter().flat_map(|(_, parts)| parts).map(|(name, _)| name);
-    let objectives = names().map(|name| Objective::new(name)).collect::<Result<Vec<_>, _>>()?;
-    check_request(plan, &parameters, &objectives)?;
+    let names = sums.iter().flat_map(|(_, parts)| parts).map(|(name, _)| name.as_str());
+    let parameters = asked(plan, names, by)?;
     let bytes = (plan.grid.len() / plan.symmetry.copies())
         .saturating_mul(STATE)
         .saturating_mul(plan.case.increments());
@@ -129,22 +148,25 @@ fn derivatives(
         observer.iterated(&Iteration { increment, stage, iteration: 0, residual: 0.0, tolerance })
     };
     let scene = Scene::new(plan, &steps);
+    // What comes after the last increment that is asked for changes nothing of it, whichever way.
+    let asked = targets.iter().flat_map(|target| &target.columns).map(|(increment, ..)| increment + 1).max();
+    let steps = &steps[..asked.unwrap_or(0)];
     let mut gradients: Vec<Gradient> =
-        targets.iter().map(|target| target.empty(&steps, parameters.len())).collect();
+        targets.iter().map(|target| target.empty(steps, parameters.len())).collect();
     let cheaper = if targets.len() < parameters.len() { Direction::Backward } else { Direction::Forward };
     let bytes = scene.region.len().saturating_mul(backward::BYTES).saturating_mul(steps.len());
     if direction.unwrap_or(cheaper) == Direction::Backward
         && (direction.is_some() || memory::check(bytes).is_ok())
-        && let Some(past) = Past::of(&scene, &steps)?
+        && let Some(past) = Past::of(&scene, steps)?
     {
         let (found, near_events) =
-            backward::backward(&scene, (past, &steps), &parameters, &targets, &mut tell)?;
+            backward::backward(&scene, (past, steps), &parameters, &targets, &mut tell)?;
         for (gradient, by) in gradients.iter_mut().zip(found) {
             gradient.by = by;
         }
         return Ok(Sensitivities { parameters, gradients, near_events, direction: Direction::Backward });
     }
-    let near_events = forward(&scene, &parameters, &steps, |(step, solved), changes| {
+    let near_events = forward(&scene, &parameters, steps, |(step, solved), changes| {
         for (gradient, target) in gradients.iter_mut().zip(&targets) {
             let here = target.columns.iter().filter(|(increment, ..)| *increment == step.record.increment);
             for (_, column, weight) in here {

@@ -33,6 +33,6 @@ mod transposed;
 
 pub use error::SensitivityError;
 pub use events::NearEvents;
-pub use gradient::{Direction, Gradient, Request, Sensitivities, gradient, pulled_back};
-pub use objective::COLUMNS;
+pub use gradient::{Direction, Gradient, Request, Sensitivities, check_asked, gradient, pulled_back};
+pub use objective::{COLUMNS, check_name};
 pub use parameter::Parameter;

@@ -105,6 +105,14 @@ impl Objective {
     }
 }
 
+/// Whether a name is one of a result that has derivatives; whether the history has it is for the run to say.
+///
+/// # Errors
+/// When it is none, with those that are.
+pub fn check_name(name: &str) -> Result<(), SensitivityError> {
+    Objective::new(name).map(drop)
+}
+
 /// Value of a column in a record.
 pub(super) fn value_of(record: &StepRecord, column: &str) -> f64 {
     let found = STEP_COLUMNS.iter().find(|known| known.name == column);

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, LogNormal, Normal, Triangular, Uniform, Weibull};
+use statrs::statistics::Distribution as Moments;
 
 /// A distribution of one number.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -104,6 +105,23 @@ impl Distribution {
             Self::Weibull { shape, scale } => at(Weibull::new(shape, scale), fraction),
         }
     }
+
+    /// Mean and standard deviation.
+    ///
+    /// # Panics
+    /// Never, of a distribution that has been [`checked`](Self::checked); else not numbers.
+    pub fn moments(&self) -> [f64; 2] {
+        fn of<D: Moments<f64>, E>(distribution: Result<D, E>) -> [f64; 2] {
+            let found = distribution.ok().and_then(|found| Some([found.mean()?, found.std_dev()?]));
+            found.unwrap_or([f64::NAN; 2])
+        }
+        match *self {
+            Self::Normal { mean, deviation } | Self::Lognormal { mean, deviation } => [mean, deviation],
+            Self::Uniform { from, to } => of(Uniform::new(from, to)),
+            Self::Triangular { from, mode, to } => of(Triangular::new(from, to, mode)),
+            Self::Weibull { shape, scale } => of(Weibull::new(shape, scale)),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -111,7 +129,7 @@ mod tests {
     use super::*;
 
     /// Mean and standard deviation by midpoints of the fractions.
-    fn moments(distribution: Distribution) -> [f64; 2] {
+    fn by_quantiles(distribution: Distribution) -> [f64; 2] {
         const COUNT: usize = 200_000;
         let values: Vec<f64> =
             (0..COUNT).map(|n| distribution.quantile((n as f64 + 0.5) / COUNT as f64)).collect();
@@ -135,10 +153,13 @@ mod tests {
             ),
             (Distribution::Weibull { shape: 2.5, scale: 3.0 }, 3.0 * one, 3.0 * (two - one * one).sqrt()),
         ] {
-            let found = moments(distribution.checked().unwrap());
+            let found = by_quantiles(distribution.checked().unwrap());
             // the tails beyond the outermost midpoints
             assert!((found[0] / mean - 1.0).abs() < 1e-4, "{distribution:?}: {found:?}");
             assert!((found[1] / deviation - 1.0).abs() < 1e-3, "{distribution:?}: {found:?}");
+            let moments = distribution.moments();
+            assert!((moments[0] / mean - 1.0).abs() < 1e-12, "{distribution:?}: {moments:?}");
+            assert!((moments[1] / deviation - 1.0).abs() < 1e-12, "{distribution:?}: {moments:?}");
         }
     }
 

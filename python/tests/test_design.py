@@ -1,0 +1,213 @@
+"""Optima of a case against closed forms, and against sweeps."""
+
+import math
+import sys
+from typing import Any
+
+import numpy as np
+import pytest
+
+import fretting
+
+pytest.importorskip("scipy")
+
+FORCE, RADIUS, POISSON = 10.0, 10e-3, 0.3
+YOUNG = "lower.substrate.young"
+
+
+def ball(young: float, length: float = 1.0) -> dict[str, Any]:
+    """A rigid ball on a half-space; lengths times a factor, as in another unit."""
+    return {
+        "grid": {"cells": [64, 64], "size": [400e-6 * length, 400e-6 * length]},
+        "upper": {"rigid": True},
+        "lower": {"substrate": {"young": young / length**2, "poisson": POISSON}},
+        "profile": {"sphere": {"radius": RADIUS * length}},
+        "solver": {"tolerance": 1e-9},
+        "load": [{"normal_force": FORCE, "increments": 1}],
+    }
+
+
+def pressure_and_approach(young: float) -> tuple[float, float]:
+    """Hertz: p_0 = (6 P E*^2 / (pi^3 R^2))^(1/3), delta = (9 P^2 / (16 R E*^2))^(1/3)."""
+    modulus = young / (1.0 - POISSON**2)
+    return (
+        (6.0 * FORCE * modulus**2 / (math.pi**3 * RADIUS**2)) ** (1 / 3),
+        (9.0 * FORCE**2 / (16.0 * RADIUS * modulus**2)) ** (1 / 3),
+    )
+
+
+# 22 to 26 cells in the diameter of the contact: pressure and approach are within 1 % of the closed form, and a modulus
+# that follows from their ratio, to a power of 3/4, or from the pressure, to one of 3/2, within 1.5 %.
+GRID = 0.015
+
+
+def test_an_optimum_inside_is_that_of_the_closed_form() -> None:
+    # p_0 grows with E*^(2/3), the approach falls with it: their sum over their values at 150 GPa is least there, and 2.
+    best = 150e9
+    pressure, approach = pressure_and_approach(best)
+    weights = {"max_pressure": 1.0 / pressure, "approach": 1.0 / approach}
+    for start in (60e9, 380e9):
+        found = fretting.design(ball(start), by={YOUNG: (50e9, 400e9)}, minimize=weights)
+        assert found.numbers[YOUNG] == pytest.approx(best, rel=GRID)
+        assert found.objective == pytest.approx(2.0, rel=GRID)
+        assert found.active == [] and found.prices == {} and found.slope < 0.01
+        assert len(found.evaluations) < 12
+        assert found.results["approach"] == found.history.increments["approach"][-1]
+
+
+def test_an_optimum_at_a_limit_is_that_of_the_closed_form() -> None:
+    limit, _ = pressure_and_approach(200e9)
+    for sense in ({"minimize": "approach"}, {"maximize": {"approach": -1.0}}):
+        found = fretting.design(ball(90e9), by={YOUNG: (50e9, 400e9)}, limits={"max_pressure": (None, limit)}, **sense)
+        assert found.numbers[YOUNG] == pytest.approx(200e9, rel=GRID)
+        assert found.results["max_pressure"] <= limit * (1 + 1e-4)
+        assert found.active == [f"max_pressure at its upper limit, {limit:g}"]
+        # The approach is as 1/p_0: one per cent more of pressure takes one per cent of it; the powers are the grid's.
+        assert found.prices["max_pressure"] == pytest.approx(1.0, abs=0.03)
+        assert found.slope < 1e-6
+
+
+def test_bounds_that_hold_an_optimum_are_named() -> None:
+    by = {YOUNG: (50e9, 400e9), "load[0].normal_force": (5.0, 15.0)}
+    found = fretting.design(ball(90e9), by=by, minimize="max_pressure")
+    assert found.active == [f"{YOUNG} at its lower bound, 5e+10", "load[0].normal_force at its lower bound, 5"]
+    assert found.numbers == pytest.approx({YOUNG: 50e9, "load[0].normal_force": 5.0}, rel=1e-12)
+    assert found.slope == 0.0
+
+
+def test_a_design_does_not_depend_on_units() -> None:
+    limit, _ = pressure_and_approach(200e9)
+    bounds = (50e9, 400e9)
+    found = [
+        fretting.design(
+            ball(90e9, length),
+            by={YOUNG: (bounds[0] / length**2, bounds[1] / length**2)},
+            minimize="approach",
+            limits={"max_pressure": (None, limit / length**2)},
+        ).numbers[YOUNG]
+        * length**2
+        for length in (1.0, 1e3)
+    ]
+    assert found[0] == pytest.approx(found[1], rel=1e-6)
+
+
+COATED: dict[str, Any] = {
+    "grid": {"cells": [32, 32], "size": [100e-6, 100e-6]},
+    "upper": {"substrate": {"young": 210e9, "poisson": 0.3}},
+    "lower": {
+        "coatings": [{"thickness": 2e-6, "young": 200e9, "poisson": 0.22}],
+        "substrate": {"young": 210e9, "poisson": 0.3},
+    },
+    "profile": {"sphere": {"radius": 3e-3}},
+    "friction": {"coefficient": 0.2},
+    "load": [
+        {"name": "press", "normal_force": 2.0, "increments": 4},
+        {"name": "rub", "tangential_force": [0.25, 0.0], "cycles": 1, "increments": 16},
+    ],
+}
+THICKNESS = "lower.coatings[0].thickness"
+MODULUS = "lower.coatings[0].young"
+ENERGY = "cycles[0].dissipated_energy"
+
+
+BOUNDS = {THICKNESS: (1e-6, 8e-6), MODULUS: (120e9, 400e9)}
+
+
+@pytest.fixture(scope="module")
+def swept() -> tuple[list[np.ndarray[Any, Any]], Any]:
+    """Thicknesses and moduli in steps of equal ratios, and what a sweep of them has."""
+    pytest.importorskip("xarray")
+    rows = [np.geomspace(*pair, 7) for pair in BOUNDS.values()]
+    return rows, fretting.sweep(
+        COATED, dict(zip(("lower.coatings.0.thickness", "lower.coatings.0.young"), rows, strict=True))
+    )
+
+
+@pytest.mark.parametrize(
+    ("limit", "active"),
+    [(0.83e9, ["max_pressure at its upper limit, 8.3e+08"]), (0.86e9, [THICKNESS, MODULUS])],
+)
+def test_the_optimum_of_a_coating_lies_where_a_sweep_has_it(limit: float, active: list[str], swept: Any) -> None:
+    rows, told = swept
+    found = fretting.design(COATED, by=BOUNDS, minimize=ENERGY, limits={"max_pressure": (None, limit)})
+    allowed = told["cycle_dissipated_energy"].where(told["max_pressure"] <= limit)
+    place = np.unravel_index(np.nanargmin(allowed.values), allowed.shape)
+    best = [row[index] for row, index in zip(rows, place, strict=True)]
+    assert found.objective <= allowed.values[place] * (1 + 1e-6)
+    for number, other, row in zip(found.numbers.values(), best, rows, strict=True):
+        assert abs(math.log(number / other)) <= math.log(row[1] / row[0]), (found.numbers, best)
+    assert len(found.active) == len(active)
+    assert all(words.startswith(name) for words, name in zip(found.active, active, strict=True)), found.active
+
+
+def test_what_cannot_be_reached_is_an_error_with_all_that_was_run() -> None:
+    low, _ = pressure_and_approach(50e9)
+    with pytest.raises(fretting.DesignError, match=r"limits are not met: max_pressure = .* above its limit") as caught:
+        fretting.design(
+            ball(90e9), by={YOUNG: (50e9, 400e9)}, minimize="approach", limits={"max_pressure": (None, 0.9 * low)}
+        )
+    assert caught.value.evaluations[0].numbers == {YOUNG: 90e9}
+    assert set(caught.value.evaluations[0].results) == {"approach", "max_pressure"}
+    pressure, approach = pressure_and_approach(150e9)
+    weights = {"max_pressure": 1.0 / pressure, "approach": 1.0 / approach}
+    with pytest.raises(fretting.DesignError, match="after 1 iterations"):
+        fretting.design(ball(60e9), by={YOUNG: (50e9, 400e9)}, minimize=weights, iterations=1)
+
+
+def test_a_case_on_the_way_that_is_not_solved_names_its_numbers() -> None:
+    # A ball of 1 m makes a contact beyond the grid.
+    with pytest.raises(fretting.DesignError, match=r"the next, profile.sphere.radius = .* edge of the grid") as caught:
+        fretting.design(ball(90e9), by={"profile.sphere.radius": (1e-3, 1.0)}, minimize="max_pressure")
+    assert isinstance(caught.value.__cause__, fretting.CaseError)
+    assert caught.value.evaluations[0].numbers == {"profile.sphere.radius": RADIUS}
+
+
+def test_cells_about_to_change_their_state_are_told() -> None:
+    # A force that turns back by a ten-millionth: the cells that slid stick, as near to their bound.
+    pytest.importorskip("xarray")
+    back = {"tangential_force": [0.25 * (1 - 1e-7), 0.0], "increments": 1}
+    rub = {"tangential_force": [0.25, 0.0], "increments": 4}
+    case = {**COATED, "solver": {"tolerance": 1e-10}, "load": [COATED["load"][0], rub, back]}
+    found = fretting.design(case, by={THICKNESS: (1e-6, 8e-6)}, minimize="max_pressure")
+    assert any(note.startswith("increment 8: ") and "another state" in note for note in found.notes), found.notes
+    told = fretting.first_order(case, {THICKNESS: fretting.Normal(2e-6, 1e-7)}, of="max_pressure")
+    assert told.attrs["note"].startswith("increment 8: ")
+
+
+def test_an_objective_of_nothing_is_refused() -> None:
+    # Without a tangential force nothing is dissipated, whatever the film.
+    case = {**COATED, "load": COATED["load"][:1]}
+    with pytest.raises(ValueError, match="changes with none of them"):
+        fretting.design(case, by={THICKNESS: (1e-6, 8e-6)}, minimize="tangential_force_x")
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"minimize": None}, "one of both"),
+        ({"maximize": "approach"}, "one of both"),
+        ({"minimize": {}}, "finite weights"),
+        ({"minimize": {"approach": math.nan}}, "finite weights"),
+        ({"minimize": "contact_area"}, "two runs"),
+        ({"by": {YOUNG: (100e9, 400e9)}}, "must lie within its bounds"),
+        ({"by": {YOUNG: (400e9, 50e9)}}, "must be finite and rise"),
+        ({"by": {YOUNG: 3.0}}, "expected a pair"),
+        ({"by": {}}, "at least one"),
+        ({"by": {"solver.tolerance": (1e-10, 1e-8)}}, "paths are those of the case"),
+        ({"limits": {"max_pressure": (None, None)}}, "least and the largest"),
+        ({"limits": {"max_pressure": (2.0, 1.0)}}, "least and the largest"),
+        ({"tolerance": 0.0}, "between 0 and 1"),
+        ({"case": {**ball(90e9), "grid": {"cells": [32, 32], "size": "auto"}}}, "moves the grid with the numbers"),
+        ({"case": {**COATED, "wear": {"coefficient": 1e-13}}, "by": {THICKNESS: (1e-6, 8e-6)}}, r"\[wear\]"),
+    ],
+)
+def test_questions_without_an_answer_are_refused(changes: dict[str, Any], words: str) -> None:
+    arguments = {"case": ball(90e9), "by": {YOUNG: (50e9, 400e9)}, "minimize": "approach", **changes}
+    with pytest.raises(ValueError, match=words):
+        fretting.design(**arguments)
+
+
+def test_without_scipy_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "scipy", None)
+    with pytest.raises(ImportError, match=r"fretting\[design\]"):
+        fretting.design(ball(90e9), by={YOUNG: (50e9, 400e9)}, minimize="approach")
