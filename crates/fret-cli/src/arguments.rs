@@ -396,7 +396,7 @@ pub struct IdentifyArguments {
     /// Of an indentation: the depth at which the indenter touches, in the unit of the case, where it is known [default: fitted]
     #[arg(long, value_name = "DEPTH", allow_negative_numbers = true, requires = "indentation")]
     pub touch: Option<f64>,
-    /// Of an indentation: also fit the compliance of the instrument's frame [default: that of rig.normal_stiffness in the case, or none]
+    /// Of an indentation: also fit the compliance of the instrument's frame [default: that of the rig in the case, or none]
     #[arg(long, requires = "indentation")]
     pub frame: bool,
     /// Refuse a log with a cycle that is no whole loop, or a row without a number [default: leave these out and name them]

@@ -210,8 +210,8 @@ fn notes_of_grid(found: &Indentation) -> Option<String> {
 
 /// The unit of a number of a case by the end of its path, in the words of [`Units::of`].
 fn unit_of(path: &str) -> &'static str {
-    let keys = path.split(['.', '[']).filter(|key| key.trim_end_matches(']').parse::<usize>().is_err());
-    match keys.last() {
+    let is_key = |part: &&str| part.trim_end_matches(']').parse::<usize>().is_err();
+    match path.rsplit(['.', '[']).find(is_key) {
         Some("young") => "pressure",
         Some("thickness" | "radius" | "radius_x" | "radius_y" | "flat_radius" | "edge_radius") => "length",
         Some("normal_stiffness" | "shear_stiffness") => "pressure/length",

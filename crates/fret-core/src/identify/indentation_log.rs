@@ -92,11 +92,11 @@ impl Curves {
         enough(&table)?;
         let [low, high] = range(&loads);
         if low.abs() > high.abs() {
-            loads.iter_mut().for_each(|load| *load = -*load);
+            loads = loads.iter().map(|load| -load).collect();
             notes.push("the load is largest below zero: its sign was turned".to_owned());
         }
         if !deepens(&depths, &loads) {
-            depths.iter_mut().for_each(|depth| *depth = -*depth);
+            depths = depths.iter().map(|depth| -depth).collect();
             notes.push("the depth falls where the load grows: its sign was turned".to_owned());
         }
         let has_units = table.columns.iter().flatten().any(|column| column.unit.is_some());

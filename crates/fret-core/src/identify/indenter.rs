@@ -115,7 +115,7 @@ impl<'a> Indenter<'a> {
 
     /// Loads at the depths, and the derivatives of their logarithms by those of the numbers, through the equations of the increments; `None`
     /// where these do not give them.
-    fn exact(&self, values: &[f64]) -> Result<Option<Loads>, IdentifyError> {
+    fn exact(&self, values: &[f64]) -> Result<Option<Pressed>, IdentifyError> {
         if values.is_empty() {
             return Ok(None);
         }
@@ -131,11 +131,11 @@ impl<'a> Indenter<'a> {
         };
         let by = |k: usize| found.gradients.iter().map(|of| of.by[k] * values[k] / of.value).collect();
         let by = (0..values.len()).map(by).collect();
-        Ok(Some(Loads { loads: found.gradients.iter().map(|of| of.value).collect(), by, histories: 1 }))
+        Ok(Some(Pressed { loads: found.gradients.iter().map(|of| of.value).collect(), by, histories: 1 }))
     }
 
     /// The same by differences.
-    fn by_differences(&self, values: &[f64]) -> Result<Loads, IdentifyError> {
+    fn by_differences(&self, values: &[f64]) -> Result<Pressed, IdentifyError> {
         let loads = self.loads(values, 1)?;
         let by = |k: usize| {
             let beside = |step: f64| {
@@ -147,12 +147,12 @@ impl<'a> Indenter<'a> {
             Ok(loads.iter().zip(there).map(|(load, there)| (there / load).ln() / step).collect())
         };
         let by = (0..values.len()).map(by).collect::<Result<_, IdentifyError>>()?;
-        Ok(Loads { loads, by, histories: 1 + values.len() })
+        Ok(Pressed { loads, by, histories: 1 + values.len() })
     }
 }
 
 /// Loads at the depths, derivatives of their logarithms by those of each number, and how many histories were solved.
-struct Loads {
+struct Pressed {
     loads: Vec<f64>,
     by: Vec<Vec<f64>>,
     histories: usize,

@@ -20,6 +20,10 @@ use crate::run::{Silent, Simulation};
 /// Plane strain modulus of E = 70 GPa and nu = 0.3 [MPa].
 const MODULUS: f64 = 70e3 / (1.0 - 0.09);
 
+/// The text of a case by its numbers, and the load at a depth.
+type Model<'a> = &'a (dyn Fn(&[f64]) -> String + Sync);
+type Load<'a> = &'a (dyn Fn(f64) -> f64 + Sync);
+
 /// A rigid indenter on a body, in mm and N; `cells` along each side.
 fn text(profile: &str, body: &str, cells: usize) -> String {
     format!(
@@ -176,8 +180,6 @@ fn the_modulus_of_a_homogeneous_body_is_found() {
     let sneddon = |d: f64| 2.0 / PI * MODULUS * d * d / 0.2;
     let flat = |d: f64| 2.0 * 0.01 * MODULUS * d;
     let key = ("lower.substrate.young", 42e3);
-    type Model<'a> = &'a (dyn Fn(&[f64]) -> String + Sync);
-    type Load<'a> = &'a (dyn Fn(f64) -> f64 + Sync);
     let tests: [(&str, f64, Model<'_>, f64, Load<'_>); 3] = [
         ("sphere", 0.005, &sphere, 1e-3, &hertz),
         ("cone", 0.005, &cone, 1e-3, &sneddon),
@@ -469,7 +471,6 @@ fn intervals_of_films_hold_in_ninety_of_a_hundred() {
     let hertz = |d: f64| 4.0 / 3.0 * MODULUS * d.powf(1.5);
     let ball = Test { deepest: 1e-3, load: &hertz, frame: 0.0 };
     let of_ball = homogeneous("profile.sphere.radius = 1.0", 48);
-    type Model<'a> = &'a (dyn Fn(&[f64]) -> String + Sync);
     let trials: [(&str, f64, Model<'_>, &Test<'_>); 3] = [
         ("lower.substrate.young", 70e3, &of_ball, &ball),
         (YOUNG.0, YOUNG.1, &by_young, &test),
