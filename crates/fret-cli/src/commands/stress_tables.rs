@@ -48,15 +48,6 @@ impl<'a> StressTables<'a> {
         points: &'a [DepthPoint],
         surfaces: &'a [LoadedSurface],
     ) -> Self {
-        let mut depth = 0.0;
-        let interfaces = half_space
-            .coatings()
-            .iter()
-            .map(|coating| {
-                depth += coating.thickness();
-                depth
-            })
-            .collect();
         let row = run.grid().cells()[1] / 2;
         let ([first, last], cyclic) = run.last_cycle();
         let cycle: Vec<usize> = surfaces
@@ -73,7 +64,7 @@ impl<'a> StressTables<'a> {
             half_space,
             points,
             surfaces,
-            interfaces,
+            interfaces: half_space.interfaces(),
             largest: Vec::new(),
             by_depth: head_by_depth(run.units()),
             row,

@@ -83,12 +83,6 @@ pub fn stress_below(
         !interrupt::is_asked()
     });
     done.map_err(|error| Failure::Defect(format!("stress kernels: {error}")))?;
-    let mut depth = 0.0;
-    let interfaces = half_space.coatings().iter().map(|coating| {
-        depth += coating.thickness();
-        depth
-    });
-    let interfaces = interfaces.collect();
     let depths = points.iter().map(|point| point.depth).collect();
-    Ok(Some(StressBelow { depths, values, interfaces, largest, margin, body }))
+    Ok(Some(StressBelow { depths, values, interfaces: half_space.interfaces(), largest, margin, body }))
 }

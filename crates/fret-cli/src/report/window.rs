@@ -2,7 +2,7 @@
 
 use super::overview::Overview;
 use fret_core::model::Dimension;
-use fret_results::Field;
+use fret_results::{Field, Fields};
 
 /// Cells around the contact that are shown.
 const MARGIN: usize = 2;
@@ -41,6 +41,16 @@ impl Window {
         let first = self.low.map(|low| low.saturating_sub(MARGIN));
         let end = [0, 1].map(|axis| (self.high[axis] + 1 + MARGIN).min(self.grid[axis]));
         (first, [end[0] - first[0], end[1] - first[1]])
+    }
+
+    /// Its ends along x and y [length].
+    pub fn edges(&self, fields: &Fields) -> [[f64; 2]; 2] {
+        let ((first, cells), spacing) = (self.cells(), fields.spacing());
+        [0, 1].map(|axis| {
+            let centres = [&fields.x, &fields.y][axis];
+            let half = 0.5 * spacing[axis];
+            [centres[first[axis]] - half, centres[first[axis] + cells[axis] - 1] + half]
+        })
     }
 }
 

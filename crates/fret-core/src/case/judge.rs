@@ -43,6 +43,18 @@ impl Judge<'_> {
         None
     }
 
+    /// Refuses each of the things that is given: its place, what is wrong with it, the way out.
+    pub(super) fn refuse_given<M: Into<String>, const N: usize>(
+        &mut self,
+        things: [(Option<Range<usize>>, M, &str); N],
+    ) {
+        for (span, message, help) in things {
+            if let Some(span) = span {
+                self.refuse::<()>(span, message, help);
+            }
+        }
+    }
+
     /// Content of a file the case names under `key`; refused, with the reason, when it cannot be had.
     pub(super) fn attached(&mut self, key: &str, name: &At<String>) -> Option<Vec<u8>> {
         match (self.attachments.file)(&name.value) {

@@ -5,6 +5,7 @@ use super::judge::Judge;
 use super::misfits::{Loading, Misfit};
 use super::side::Side;
 use super::surface_file::OfFile;
+use crate::document::At;
 use crate::model::controls::{TILT, TWIST};
 use crate::model::{Displacement, Frame, Kinematics};
 
@@ -51,58 +52,44 @@ pub(super) fn kinematics(judge: &mut Judge, concerned: &Concerned<'_>) -> Kinema
         &format!("with {FINITE}: surfaces are moved by the shift, not turned by a twist"),
         SMALL,
     );
-    if let Some(beyond) = file.grid.beyond.as_ref().filter(|beyond| !beyond.value.is_body()) {
-        judge.refuse::<()>(
-            beyond.span(),
+    let beyond = file.grid.beyond.as_ref().filter(|beyond| !beyond.value.is_body());
+    let heights = file.profile.as_ref().and_then(|profile| profile.value.heights.as_ref());
+    let of = heights.and_then(|heights| heights.value.of.as_ref()).filter(|of| of.value == OfFile::Gap);
+    let coefficient = file.wear.as_ref().and_then(|wear| wear.value.coefficient.as_ref());
+    let evolution = file.friction.as_ref().and_then(|friction| friction.evolution.as_ref());
+    let body = file.stress.as_ref().and_then(|stress| stress.value.body.as_ref());
+    judge.refuse_given([
+        (
+            beyond.map(At::span),
             format!("grid.beyond = \"no body\" with {FINITE}: nothing says which body ends there, and moves its edge"),
             "a flat_punch or a rounded_punch in [upper.profile] has an edge that moves",
-        );
-    }
-    let heights = file.profile.as_ref().and_then(|profile| profile.value.heights.as_ref());
-    if let Some(of) =
-        heights.and_then(|heights| heights.value.of.as_ref()).filter(|of| of.value == OfFile::Gap)
-    {
-        judge.refuse::<()>(
-            of.span(),
+        ),
+        (
+            of.map(At::span),
             format!("profile.heights.of = \"gap\" with {FINITE}: nothing says which body the heights are of"),
             "[upper.profile.heights] or [lower.profile.heights], of = \"surface\"",
-        );
-    }
-    let coefficient = file.wear.as_ref().and_then(|wear| wear.value.coefficient.as_ref());
-    if let Some(given) = coefficient {
-        judge.refuse::<()>(
-            given.span(),
+        ),
+        (
+            coefficient.map(At::span),
             format!("wear.coefficient with {FINITE}: it is that of both bodies together, and each wears in its own frame"),
             "wear_coefficient = ... in the layers, substrates and rigid bodies that wear",
-        );
-    }
-    let evolution = file.friction.as_ref().and_then(|friction| friction.evolution.as_ref());
-    if let Some(given) = evolution.filter(|_| kinematics.friction_of_upper) {
-        judge.refuse::<()>(
-            given.span(),
-            "friction.evolution with friction.moves_with = \"upper\": slip is collected in the frame of the lower body",
+        ),
+        (
+            evolution.filter(|_| kinematics.friction_of_upper).map(At::span),
+            "friction.evolution with friction.moves_with = \"upper\": slip is collected in the frame of the lower body".to_owned(),
             "moves_with = \"lower\"",
-        );
-    }
-    if let Some(thermal) = &file.thermal {
-        judge.refuse::<()>(
-            thermal.span(),
-            format!(
-                "thermal with {FINITE}: the heat of a cycle is taken to enter both bodies in the same places"
-            ),
+        ),
+        (
+            file.thermal.as_ref().map(At::span),
+            format!("thermal with {FINITE}: the heat of a cycle is taken to enter both bodies in the same places"),
             SMALL,
-        );
-    }
-    let body = file.stress.as_ref().and_then(|stress| stress.value.body.as_ref());
-    if let Some(body) = body.filter(|body| body.value == Side::Upper) {
-        judge.refuse::<()>(
-            body.span(),
-            format!(
-                "stress.body = \"upper\" with {FINITE}: tractions are kept in the frame of the lower body"
-            ),
+        ),
+        (
+            body.filter(|body| body.value == Side::Upper).map(At::span),
+            format!("stress.body = \"upper\" with {FINITE}: tractions are kept in the frame of the lower body"),
             "name the body whose stresses are asked for as the lower one",
-        );
-    }
+        ),
+    ]);
     kinematics
 }
 

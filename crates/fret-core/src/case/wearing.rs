@@ -43,37 +43,31 @@ pub(super) fn wear(
         );
     };
     let coefficient = file.coefficient.as_ref().map(|given| given.value);
-    if let (Some(_), Some(own)) = (&file.coefficient, &own) {
-        judge.refuse::<()>(
-            own.clone(),
-            "wear_coefficient and wear.coefficient, both at once",
-            "wear.coefficient is that of both bodies together: leave out one of the two",
-        );
-    }
-    if frictionless {
-        judge.refuse::<()>(
-            span.clone(),
-            "wear: a contact without friction has no slip in this model",
-            "[friction] coefficient = ...",
-        );
-    }
     let whole = if file.tolerance.is_some() { MOST_EVERY } else { 1 };
     let every = file.every.as_ref().map_or(whole, |given| given.value);
     let thinning = file.thinning_tolerance.as_ref().map(|given| given.value);
-    if let (Some(given), None) = (&file.thinning_tolerance, &own) {
-        judge.refuse::<()>(
-            given.span(),
+    judge.refuse_given([
+        (
+            own.clone().filter(|_| coefficient.is_some()),
+            "wear_coefficient and wear.coefficient, both at once",
+            "wear.coefficient is that of both bodies together: leave out one of the two",
+        ),
+        (
+            frictionless.then(|| span.clone()),
+            "wear: a contact without friction has no slip in this model",
+            "[friction] coefficient = ...",
+        ),
+        (
+            file.thinning_tolerance.as_ref().map(At::span).filter(|_| own.is_none()),
             "wear.thinning_tolerance: nothing says which body wears, and how its layers do",
             "wear_coefficient = ... in all layers of the body that wears, in place of wear.coefficient",
-        );
-    }
-    if let (Some(table), Some(_)) = (stress, thinning) {
-        judge.refuse::<()>(
-            table.span(),
+        ),
+        (
+            stress.map(At::span).filter(|_| thinning.is_some()),
             "stress and wear.thinning_tolerance: stresses below are those of the unworn layers",
             "leave out one of the two",
-        );
-    }
+        ),
+    ]);
     let jumping = file.every.as_ref().map_or_else(|| span.clone(), At::span);
     changing_cycles(judge, jumping, ("wear", "that wears"), every, stages.unwrap_or_default());
     let layers = own.is_some().then(|| WearLayers::new(layers.map(Option::unwrap_or_default)));

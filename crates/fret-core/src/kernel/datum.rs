@@ -66,12 +66,7 @@ impl Datum {
 
 /// The layer in which a depth lies.
 fn layer_at(half_space: &HalfSpace, depth: f64) -> usize {
-    let mut below = 0.0;
-    let inside = half_space.coatings().iter().position(|coating| {
-        below += coating.thickness();
-        depth <= below
-    });
-    inside.unwrap_or(half_space.coatings().len())
+    half_space.interfaces().iter().filter(|below| **below < depth).count()
 }
 
 #[cfg(test)]

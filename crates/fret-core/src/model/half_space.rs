@@ -181,6 +181,16 @@ impl HalfSpace {
         &self.base
     }
 
+    /// Depths of the lower faces of its coatings [length], from the surface down.
+    pub fn interfaces(&self) -> Vec<f64> {
+        let mut depth = 0.0;
+        let lower_face = |coating: &Coating| {
+            depth += coating.thickness();
+            depth
+        };
+        self.coatings.iter().map(lower_face).collect()
+    }
+
     /// Sum of the coatings' thicknesses [length].
     pub fn coating_thickness(&self) -> f64 {
         self.coatings.iter().map(Coating::thickness).sum()

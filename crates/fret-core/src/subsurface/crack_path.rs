@@ -102,13 +102,7 @@ pub fn crack_path(
     }
     let mut depths: Vec<f64> =
         (0..=DEPTHS).map(|n| deepest * (n as f64 / DEPTHS as f64) * (n as f64 / DEPTHS as f64)).collect();
-    let mut face = 0.0;
-    for coating in half_space.coatings() {
-        face += coating.thickness();
-        if face < deepest {
-            depths.push(face);
-        }
-    }
+    depths.extend(half_space.interfaces().into_iter().filter(|face| *face < deepest));
     depths.sort_by(f64::total_cmp);
     let points = depth_points(half_space, &depths)?;
     let mut stress = vec![Vec::with_capacity(points.len()); cycle.len()];

@@ -184,12 +184,7 @@ impl Ground<'_> {
 
     fn maps(&self, now: &Moment) -> Result<Vec<Markup>, Failure> {
         let fields = &self.view.results.fields;
-        let (first, cells) = self.window.cells();
-        let [dx, dy] = fields.spacing();
-        let edges = |centres: &[f64], axis: usize, side: f64| {
-            [centres[first[axis]] - 0.5 * side, centres[first[axis] + cells[axis] - 1] + 0.5 * side]
-        };
-        let (x, y) = (edges(&fields.x, 0, dx), edges(&fields.y, 1, dy));
+        let [x, y] = self.window.edges(fields);
         // A line contact is the same all along y, and its sections tell all.
         let dimension = self.view.dimension();
         let y_label = match dimension {

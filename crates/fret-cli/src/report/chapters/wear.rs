@@ -37,16 +37,13 @@ pub fn wear(view: &Overview<'_>) -> Result<Markup, Failure> {
         let [i, j] = cell(first, cells, size, [column, row]);
         if scar.at(i, j) > 0.0 { scar.at(i, j) } else { f64::NAN }
     };
-    let [dx, dy] = fields.spacing();
-    let ends = |centres: &[f64], axis: usize, side: f64| {
-        [centres[first[axis]] - 0.5 * side, centres[first[axis] + cells[axis] - 1] + 0.5 * side]
-    };
+    let [x, y] = window.edges(fields);
     let map = Map {
         what: "wear depth".to_owned(),
         width: 400.0,
         axes: [view.label("x", "length"), view.label("y", "length")],
-        x: ends(&fields.x, 0, dx),
-        y: ends(&fields.y, 1, dy),
+        x,
+        y,
         downward: false,
         image: Raster::of_values(size, [0.0, most], value).address()?,
         id: None,
