@@ -97,7 +97,7 @@ pub enum Verb {
     },
     /// Subsurface stresses from the kept tractions of a run
     Stress(StressArguments),
-    /// Friction coefficient, stiffness of the rig and the quantities of every cycle from measured fretting loops
+    /// Friction coefficient, stiffness of the rig and the quantities of every cycle from measured fretting loops; moduli and thicknesses from an indentation
     Identify(IdentifyArguments),
     /// The computed wear scar of a run beside a line that a profilometer has measured
     CompareScar(CompareScarArguments),
@@ -375,7 +375,7 @@ pub struct IdentifyArguments {
     /// The case: bodies, profile, grid and the stages that press them. Its friction, or its numbers named by --fit, are where the fit starts
     #[arg(long, value_name = "CASE")]
     pub case: PathBuf,
-    /// Which column holds what, by name or by number from 1: `displacement=NAME,force=NAME,cycle=NAME,normal_force=NAME` [default: rig.columns of the case, else usual names]
+    /// Which column holds what, by name or by number from 1: `displacement=NAME,force=NAME,cycle=NAME,normal_force=NAME`; of an indentation `depth=NAME,force=NAME` [default: rig.columns of the case, else usual names]
     #[arg(long, value_name = "WHAT=NAME,...", value_delimiter = ',')]
     pub columns: Vec<String>,
     /// Units of the columns, such as displacement=um,force=N [default: those beside the names, or those of the case]

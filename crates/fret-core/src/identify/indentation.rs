@@ -71,6 +71,13 @@ pub fn indentation(
     numbers: &Numbers<'_>,
     request: &IndentationRequest,
 ) -> Result<Indentation, IdentifyError> {
+    if numbers.keys.is_empty() && !request.frame {
+        let what = "nothing is fitted but the depth at first touch".to_owned();
+        return Err(IdentifyError::Log {
+            what,
+            help: "name a number of the case, or fit the frame".to_owned(),
+        });
+    }
     let curves = Curves::read((name, bytes), case.units.as_ref(), request)?;
     let known = Known { touch: request.touch, frame: case.springs().normal, fits_frame: request.frame };
     let indenter = Indenter::new(case, numbers)?;
