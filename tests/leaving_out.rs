@@ -1,13 +1,7 @@
 //! What is left out changes the work, never the answer: every shortcut against the same run without it, and against the run
 //! that computes everything. `docs/developers/simplifications-measured.md` is the table of the same cases on finer grids.
 
-use std::time::Instant;
-
 use fret_core::case::Case;
-use fret_core::kernel::{
-    Components, InfluenceCoefficients, PairResponse, coefficients_of, influence_coefficients,
-};
-use fret_core::model::ContactPair;
 use fret_core::plan::{LeaveOut, Plan, Simplification};
 use fret_validation::Sphere;
 use fret_validation::shortcuts::{TOLERANCE, cases, difference, solved};
@@ -86,13 +80,10 @@ fn leaving_out_changes_the_work_and_not_the_answer() {
                 );
             }
             // The same steps, but for coefficients of other roundings, which may end a Krylov iteration one step later; what it saves
-            // is before them.
+            // is before them, and timed in `examples/leaving_out.rs`.
             Simplification::LayeredResponse => {
                 let steps = [least, more].map(|work| work.convolutions as f64);
                 assert!((steps[0] / steps[1] - 1.0).abs() < 0.02, "{name}: {least:?} {more:?}");
-                let [plain, layered] = seconds_of_coefficients(&planned.case.bodies);
-                // Forty times by the documentation of the coefficients; the machine may do other things besides.
-                assert!(5.0 * plain < layered, "{name}: {plain:e} s, by layers {layered:e} s");
             }
         }
     }
@@ -144,23 +135,6 @@ fn a_mirror_changes_no_number_of_surfaces_that_change() {
             );
         }
     }
-}
-
-/// Best times of the coefficients of pressure of a plain body: as what it is, and through its layers.
-fn seconds_of_coefficients(bodies: &ContactPair) -> [f64; 2] {
-    let (cells, spacing, wanted) = ([64, 64], [0.1, 0.1], Components::NORMAL);
-    let best = |work: &dyn Fn() -> InfluenceCoefficients| {
-        let time = || {
-            let started = Instant::now();
-            std::hint::black_box(work());
-            started.elapsed().as_secs_f64()
-        };
-        (0..10).map(|_| time()).fold(f64::INFINITY, f64::min)
-    };
-    [
-        best(&|| influence_coefficients(bodies, cells, spacing, wanted)),
-        best(&|| coefficients_of(&PairResponse::all_layers(bodies, 6.4), cells, spacing, wanted)),
-    ]
 }
 
 fn is_nothing(field: &Array2<f64>) -> bool {

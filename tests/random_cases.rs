@@ -50,15 +50,25 @@ fn the_first_of_the_extreme_cases_are_certified_or_refused_for_a_reason() {
 /// when it slides.
 #[test]
 fn cases_that_were_not_solved_once_are_certified_or_refused() {
-    for (seeds, cells) in
-        [(vec![3875, 3913], [16, 40]), (vec![10147, 10201, 10231, 10773, 10808, 11315, 11957], [48, 96])]
-    {
-        seeds.into_par_iter().for_each(|seed| {
+    let coarse = [(3875, false), (3913, false)];
+    let fine = [
+        (10147, true),
+        (10201, false),
+        (10231, true),
+        (10773, true),
+        (10808, true),
+        (11315, true),
+        (11957, false),
+    ];
+    for (cases, cells) in [(&coarse[..], [16, 40]), (&fine, [48, 96])] {
+        cases.par_iter().for_each(|&(seed, has_answer)| {
             let Extreme { outcome, text, .. } = run(seed, cells);
-            assert!(
-                matches!(outcome, Outcome::Certified | Outcome::Refused(_)),
-                "{seed}: {outcome:?}\n{text}"
-            );
+            let is_right = match outcome {
+                Outcome::Certified => has_answer,
+                Outcome::Refused(reason) => !has_answer && reason.name().contains("than the friction limit"),
+                _ => false,
+            };
+            assert!(is_right, "{seed}: {outcome:?}\n{text}");
         });
     }
 }

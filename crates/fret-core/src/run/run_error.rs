@@ -3,7 +3,7 @@
 use super::checkpoint::Place;
 use crate::case::{Case, Units, apart};
 use crate::machine::memory::MemoryError;
-use crate::solver::SolveError;
+use crate::solver::{Carried, SolveError};
 
 /// Why a run ended without its answer.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -39,7 +39,7 @@ pub enum RunError {
     /// A tangential load above what friction carries, or as large.
     #[error(
         "increment {increment} ({stage}): tangential force {}{unit} {} {}{unit}: {}; {advice}",
-        apart(*asked, *bound)[0], limit(*asked, *bound, *has_strength), apart(*asked, *bound)[1], consequence(*asked, *bound)
+        apart(*asked, *bound)[0], limit(*asked, *bound, *by), apart(*asked, *bound)[1], consequence(*asked, *bound)
     )]
     AboveSliding {
         /// Number of the increment, from 0.
@@ -50,8 +50,8 @@ pub enum RunError {
         asked: f64,
         /// What friction carries: mu P, or less where the shear strength of the interface bounds it.
         bound: f64,
-        /// Whether the interface has a shear strength, which bounds the force beside mu P.
-        has_strength: bool,
+        /// What that is.
+        by: Carried,
         /// A space and the unit of both; empty where the case declares no units.
         unit: String,
         /// What to try.
@@ -177,16 +177,18 @@ impl RunError {
 }
 
 /// How a force stands to the limit of friction, and what that is.
-fn limit(asked: f64, bound: f64, has_strength: bool) -> &'static str {
-    match (asked > bound, has_strength) {
-        (true, false) => "is above mu P =",
-        (false, false) => "reaches mu P =",
-        (true, true) => {
+fn limit(asked: f64, bound: f64, by: Carried) -> &'static str {
+    match (asked > bound, by) {
+        (true, Carried::Coefficient) => "is above mu P =",
+        (false, Carried::Coefficient) => "reaches mu P =",
+        (true, Carried::Strength) => {
             "is above what mu P and the shear strength of the interface (friction.max_shear) carry together,"
         }
-        (false, true) => {
+        (false, Carried::Strength) => {
             "reaches what mu P and the shear strength of the interface (friction.max_shear) carry together,"
         }
+        (true, Carried::Sliding) => "is above what friction carries where the contact slides,",
+        (false, Carried::Sliding) => "reaches what friction carries where the contact slides,",
     }
 }
 
@@ -214,9 +216,9 @@ pub fn run_error(error: &SolveError, increment: usize, case: &Case, stage: usize
             iterations,
             advice: "try more increments in this stage, or a larger solver.tolerance".to_owned(),
         },
-        SolveError::AboveSliding { asked, bound, has_strength } => {
+        SolveError::AboveSliding { asked, bound, by } => {
             let (unit, advice) = (unit("force"), case.way_to_slide());
-            RunError::AboveSliding { increment, stage, asked, bound, has_strength, unit, advice }
+            RunError::AboveSliding { increment, stage, asked, bound, by, unit, advice }
         }
         SolveError::AboveFullSlip { fraction } => RunError::AboveFullSlip { increment, stage, fraction },
         SolveError::NoTilt { asked, reached } => {

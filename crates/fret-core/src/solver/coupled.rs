@@ -2,7 +2,7 @@
 
 use super::augmented_newton;
 use super::contact_problem::{Pressure, Solution};
-use super::increment_problem::{COUPLED_LIMIT, IncrementProblem, Solved};
+use super::increment_problem::{IncrementProblem, Solved};
 use super::laws::projection::project_pressure;
 use super::nested_start::nested_start;
 use super::newton;
@@ -74,9 +74,8 @@ pub fn solve(
         }
         if found.is_none() && !increment.path.turns() {
             let frictionless = without_friction(increment, &start, operators, settings, callback)?;
-            increment.check_limit(&frictionless, COUPLED_LIMIT)?;
             let slides = sliding_limit(increment, &problem, &frictionless, operators, settings, callback)?;
-            slides.check(increment)?;
+            slides.check(increment, &frictionless)?;
             found = augmented_newton::solve(&problem, &frictionless, (p, u), operators, settings, callback)?;
             if found.is_none() {
                 p.clone_from(&frictionless);

@@ -20,7 +20,7 @@ use super::slip_history::slip_path;
 use super::state_after::state_after;
 use super::stretch::Stretch;
 use super::tractions::{Displacements, Tractions};
-use super::{ContactSolver, Coupling, Increment, IterationCallback, Outcome, SolveError};
+use super::{Carried, ContactSolver, Coupling, Increment, IterationCallback, Outcome, SolveError};
 use crate::compliance::{OperatorSet, SurfaceCompliance};
 use crate::model::{ContactState, Control, Integration, LoadStep, Rig, Scheme};
 
@@ -421,7 +421,7 @@ impl ContactSolver<'_> {
         let asked = tangential_force(load);
         let bound = self.friction.largest() * normal.max(0.0);
         if asked > bound * fraction {
-            return Err(SolveError::AboveSliding { asked, bound, has_strength: false });
+            return Err(SolveError::AboveSliding { asked, bound, by: Carried::Coefficient });
         }
         Ok(())
     }

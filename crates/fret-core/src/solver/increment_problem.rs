@@ -14,7 +14,7 @@ use super::normal::{NormalEquations, first_pressure};
 use super::operators::RegionOperators;
 use super::prescribed::{NormalLoad, TangentialLoads};
 use super::region::Region;
-use super::settings::{Coupling, SolveError, SolverSettings};
+use super::settings::{Carried, Coupling, SolveError, SolverSettings};
 use super::stretch::Stretch;
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
@@ -229,11 +229,14 @@ impl<'a> IncrementProblem<'a> {
             return SolveError::AboveFullSlip { fraction };
         }
         let asked = x.hypot(y) * self.grid.cell_area();
-        SolveError::AboveSliding {
-            asked,
-            bound: fraction * asked,
-            has_strength: self.friction.has_strength(),
-        }
+        let by = if self.friction.has_strength() {
+            Carried::Strength
+        } else if self.friction.is_uniform() && self.normal.total.is_some() {
+            Carried::Coefficient
+        } else {
+            Carried::Sliding
+        };
+        SolveError::AboveSliding { asked, bound: fraction * asked, by }
     }
 
     /// Sums of shear times mode that are prescribed as they are; zero for the others [pressure].

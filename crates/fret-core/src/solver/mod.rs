@@ -70,7 +70,7 @@ pub(crate) use outcome::worst;
 pub use outcome::{Increment, Outcome, Regime, Residual, Resultants, Work};
 pub(crate) use pace::{Pace, pace_of};
 pub(crate) use region::Region;
-pub use settings::{Coupling, IterationCallback, SolveError, SolverSettings};
+pub use settings::{Carried, Coupling, IterationCallback, SolveError, SolverSettings};
 pub(crate) use slip_history::{Then, path_after_slip, turn_after_stick, way_to_touch};
 
 use held_response::HeldResponse;

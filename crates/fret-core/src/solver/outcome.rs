@@ -8,8 +8,8 @@ use crate::model::{ContactState, Symmetry};
 /// How well an increment satisfies its equations; all parts dimensionless.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Residual {
-    /// Largest `|min(g, K p)|` over the cells, relative to the mean displacement under the load (no less than 1e-5 K times the mean pressure);
-    /// g gap, p pressure, K normal self-influence of a cell.
+    /// Largest `|min(g, K p)|` over the cells, relative to the mean displacement under the load (no less than 1e-5 K times the mean pressure,
+    /// or 1e-7 of the approach); g gap, p pressure, K normal self-influence of a cell.
     pub complementarity: f64,
     /// `|q - Proj(q + slip / K)| / |b|`, Euclidean norms over the cells in contact; Proj onto the friction disc of radius b, K tangential
     /// self-influence (the smaller of both axes), slip that at the end of the increment.

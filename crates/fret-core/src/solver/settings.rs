@@ -59,6 +59,17 @@ impl SolverSettings {
     }
 }
 
+/// What bounds the tangential force that friction carries.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Carried {
+    /// The friction coefficient: mu P.
+    Coefficient,
+    /// The friction coefficient and the shear strength of the interface.
+    Strength,
+    /// The pressure under which the contact slides, which is another one than before.
+    Sliding,
+}
+
 /// Why an increment has no solution.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SolveError {
@@ -75,8 +86,8 @@ pub enum SolveError {
         asked: f64,
         /// What friction carries [force].
         bound: f64,
-        /// Whether the shear strength of the interface bounds it, beside the friction coefficient.
-        has_strength: bool,
+        /// What that is.
+        by: Carried,
     },
     /// More force and moment together than friction carries.
     AboveFullSlip {
@@ -108,9 +119,9 @@ impl SolveError {
     /// The error of a grid of whose cells one in `copies` was solved.
     pub(super) fn of_whole(self, copies: usize) -> Self {
         match self {
-            Self::AboveSliding { asked, bound, has_strength } => {
+            Self::AboveSliding { asked, bound, by } => {
                 let copies = copies as f64;
-                Self::AboveSliding { asked: asked * copies, bound: bound * copies, has_strength }
+                Self::AboveSliding { asked: asked * copies, bound: bound * copies, by }
             }
             Self::NoTilt { asked, reached } => {
                 let copies = copies as f64;

@@ -4,7 +4,7 @@
 use super::augmented_newton;
 use super::contact_problem::ContactProblem;
 use super::contact_set::ContactSet;
-use super::increment_problem::IncrementProblem;
+use super::increment_problem::{COUPLED_LIMIT, IncrementProblem};
 use super::newton;
 use super::operators::RegionOperators;
 use super::prescribed::TangentialLoads;
@@ -20,17 +20,25 @@ const LIMIT: f64 = 1.01;
 
 /// What a contact that slides carries of the forces and moments that are prescribed.
 pub struct SlidingLimit {
-    /// Their fraction [-]; infinite where it is known before, or not found.
-    fraction: f64,
+    /// Their fraction [-]; `None` where it is known before, or not found.
+    fraction: Option<f64>,
 }
 
 impl SlidingLimit {
-    /// Refuses more than a contact carries before it slides.
+    /// Refuses more than a contact carries before it slides; where that is unknown, by the pressure without friction.
     ///
     /// # Errors
     /// When it is.
-    pub fn check(&self, increment: &IncrementProblem<'_>) -> Result<(), SolveError> {
-        if LIMIT * self.fraction < 1.0 { Err(increment.above_limit(self.fraction)) } else { Ok(()) }
+    pub fn check(
+        &self,
+        increment: &IncrementProblem<'_>,
+        frictionless: &Tractions,
+    ) -> Result<(), SolveError> {
+        match self.fraction {
+            Some(fraction) if LIMIT * fraction < 1.0 => Err(increment.above_limit(fraction)),
+            Some(_) => Ok(()),
+            None => increment.check_limit(frictionless, COUPLED_LIMIT),
+        }
     }
 
     /// Refuses what is more than is carried in sliding, where no way has led to a solution.
@@ -38,7 +46,10 @@ impl SlidingLimit {
     /// # Errors
     /// When it is.
     pub fn check_unsolved(&self, increment: &IncrementProblem<'_>) -> Result<(), SolveError> {
-        if self.fraction < 1.0 { Err(increment.above_limit(self.fraction)) } else { Ok(()) }
+        match self.fraction {
+            Some(fraction) if fraction < 1.0 => Err(increment.above_limit(fraction)),
+            _ => Ok(()),
+        }
     }
 }
 
@@ -54,7 +65,7 @@ pub fn sliding_limit(
     settings: &SolverSettings,
     callback: IterationCallback<'_>,
 ) -> Result<SlidingLimit, SolveError> {
-    let unknown = SlidingLimit { fraction: f64::INFINITY };
+    let unknown = SlidingLimit { fraction: None };
     let prescribed = increment.prescribed();
     let is_known = problem.normal.total.is_some() && problem.friction.is_uniform() && prescribed[2] == 0.0;
     if is_known || prescribed == [0.0; 3] {
@@ -88,5 +99,5 @@ pub fn sliding_limit(
         x * qx + y * qy
     };
     let asked: f64 = (0..3).map(|mode| prescribed[mode] * motion[mode]).sum();
-    Ok(SlidingLimit { fraction: (0..increment.region.len()).map(work).sum::<f64>() / asked })
+    Ok(SlidingLimit { fraction: Some((0..increment.region.len()).map(work).sum::<f64>() / asked) })
 }

@@ -128,8 +128,11 @@ fn examine(problem: &mut NormalIteration<'_>) -> Violations {
     let [inner_square, outer_square, tense] = each_cell(&rule, [pressure, active], [gap, residual]);
     let inner = largest_of(&Size, [residual]);
     let outer = largest_of(&Violation { own }, [gap, pressure, active]);
-    let mean = work / load - problem.task.load.give * load;
-    let scale = if load > 0.0 { length_scale(mean, [own, load / count.max(1.0)], approach) } else { 0.0 };
+    // Of the body: displacements here have in them what the machine gives.
+    let given = problem.task.load.give * load;
+    let mean = work / load - given;
+    let scale =
+        if load > 0.0 { length_scale(mean, [own, load / count.max(1.0)], approach - given) } else { 0.0 };
     let relative = |size: f64| if scale > 0.0 { size / scale } else { f64::INFINITY };
     Violations {
         approach,

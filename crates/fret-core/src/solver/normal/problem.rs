@@ -179,8 +179,10 @@ impl<'a> NormalIteration<'a> {
             Some(_) if count > 0.0 => heights / count,
             _ => self.task.load.approach,
         };
-        let mean = work / load - self.task.load.give * load;
-        let scale = || length_scale(mean, [self.self_influence, load / count], approach);
+        // Of the body: displacements here have in them what the machine gives.
+        let given = self.task.load.give * load;
+        let scale =
+            || length_scale(work / load - given, [self.self_influence, load / count], approach - given);
         (approach, (load > 0.0).then(scale))
     }
 
