@@ -8,6 +8,7 @@ use fret_core::history::History;
 use fret_core::model::Zone;
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::run::{RunError, Silent, Simulation};
+use fret_core::solver::Carried;
 use fret_validation::{keeping, run, solved, solved_with};
 use ndarray::Array2;
 
@@ -198,7 +199,7 @@ fn a_force_above_the_shear_strength_is_refused_for_it() {
             words.contains("mu P and the shear strength of the interface (friction.max_shear)"),
             "{words}"
         );
-        let RunError::AboveSliding { bound, has_strength: true, .. } = refused else { panic!("{words}") };
+        let RunError::AboveSliding { bound, by: Carried::Strength, .. } = refused else { panic!("{words}") };
         // Cells of a twentieth of the width: half of one at each edge.
         assert!((bound / carried - 1.0).abs() < 0.1, "{bound} {carried}");
     }
