@@ -142,18 +142,22 @@ pub(super) fn answer<P: Pressing>(
     let mut constants = constants(fit, &sure, names, curves.sign);
     let mut notes = curves.notes.clone();
     notes.extend(notes_of_bounds(fit, names));
+    // Where numbers act as one, the grid follows what nothing holds.
+    let wanders = fit.grid_moves && sure.halves.iter().all(|half| half.is_finite());
+    let touch_is_bound = fit.place_of_touch().is_some_and(|place| fit.is_bound(place));
     if noise > LOST {
         notes.push(format!(
             "the fit found no curve near the points ({:.0} % of the largest load off): nothing is told; compare profile, bodies and units of the case with the test, or start from other values",
             100.0 * noise
         ));
-    } else if fit.grid_moves {
+    } else if wanders {
         notes.push("the contact of the fitted numbers left each grid that was made for it: nothing is told; start from values nearer to those fitted, or fit fewer numbers".to_owned());
     }
-    let is_lost = noise > LOST || fit.grid_moves;
+    let is_lost = noise > LOST || wanders || touch_is_bound;
     constants.iter_mut().for_each(|constant| constant.told &= !is_lost);
+    let is_shaky = |(k, constant): &(usize, &Constant)| !constant.told && !fit.is_bound(*k);
     let shaky: Vec<&str> =
-        constants.iter().filter(|constant| !constant.told).map(|constant| constant.name.as_str()).collect();
+        constants.iter().enumerate().filter(is_shaky).map(|(_, constant)| constant.name.as_str()).collect();
     if !shaky.is_empty() && !is_lost {
         notes.push(format!(
             "the curve does not tell {}: it hardly changes with it, or changes in the same way with something else that is fitted",
@@ -228,7 +232,7 @@ fn notes_of_bounds<P: Pressing>(fit: &Fit<'_, P>, names: &[&str]) -> Vec<String>
         }
         None if fit.place_of_touch() == Some(k) => {
             format!(
-                "the depth at first touch went {FARTHEST_TOUCH} ranges of the depth away from where the points let it be guessed: not told"
+                "the depth at first touch went {FARTHEST_TOUCH} ranges of the depth away from where the points let it be guessed: nothing is told; is the load counted from zero?"
             )
         }
         None => "the frame compliance would be negative: it is held at zero and not told; the other numbers are those of a rigid frame".to_owned(),
@@ -315,7 +319,7 @@ fn notes_of_residuals(
             100.0 * lowest
         ));
     }
-    if noise > OFF {
+    if noise > OFF && noise <= LOST {
         notes.push(format!(
             "the points lie {:.0} % of the largest load off the curve: more than noise; the case describes another contact",
             100.0 * noise

@@ -35,7 +35,7 @@ const ROUNDS: usize = 14;
 const ROUNDS_OF_GRIDS: [usize; 2] = [2, 8];
 const SAME_GRID: f64 = 0.02;
 /// Numbers whose derivatives are parallel to this part differ by what the grid does to them: they act as one.
-const PARALLEL: f64 = 0.015;
+const PARALLEL: f64 = 0.03;
 /// Rounds end when no parameter moves more than this part of its half-width, or this much by itself.
 const STANDS: f64 = 5e-3;
 const STANDS_BY_ITSELF: f64 = 1e-7;
