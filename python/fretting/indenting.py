@@ -182,6 +182,8 @@ def identify_indentation(
     RunError
         When the indentation cannot be solved.
     """
+    if not isinstance(fit, str | Sequence):
+        raise TypeError(f"fit: expected a key of the case or a sequence of them, found {type(fit).__name__}")
     keys = [fit] if isinstance(fit, str) else list(fit)
     for key in keys:
         of_kind("fit", key, str)
@@ -189,7 +191,7 @@ def identify_indentation(
         raise ValueError("fit: nothing is fitted but the depth at first touch; name a key of the case, or frame=True")
     named = {"columns": {} if columns is None else columns, "units": {} if units is None else units}
     names_of, units_of = (list(mapping(name, given).items()) for name, given in named.items())
-    names_of = [(role, str(column) if isinstance(column, int) else column) for role, column in names_of]
+    names_of = [(role, str(int(column)) if isinstance(column, int | np.integer) and not isinstance(column, bool) else of_kind("columns", column, str)) for role, column in names_of]
     asked = names_of, units_of, keys, part, touch, frame, strict
     json_text, page = _core.identify_indentation((str(log), content("log", log)), _case.read(case), asked, threads)
     return Indentation(json.loads(json_text), page)

@@ -89,6 +89,18 @@ pub fn identify(log: (&str, &[u8]), case_file: &CaseFile, request: &Request) -> 
 
 /// The positive number that stands at a key of the case.
 fn value_of(case_file: &CaseFile, key: &str) -> Result<f64, Failure> {
+    // A bracket that is not one of a pair around a number.
+    let is_closed = |part: &str| {
+        part.split_once(']').is_some_and(|(index, rest)| {
+            index.parse::<usize>().is_ok()
+                && (rest.is_empty() || rest.starts_with('.'))
+                && !rest.contains(']')
+        })
+    };
+    let mut parts = key.split('[');
+    if parts.next().is_some_and(|first| first.contains(']')) || !parts.all(is_closed) {
+        return Err(unknown(key));
+    }
     let table: Table = case_file.text.parse().map_err(|_| unknown(key))?;
     let root = toml::Value::Table(table);
     let found = dotted(key).split('.').try_fold(&root, |here, part| {

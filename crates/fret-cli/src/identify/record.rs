@@ -82,6 +82,9 @@ pub fn rows_in_words(rows: &[String]) -> Option<String> {
     match rows.len() {
         0 => None,
         1..=ROWS_NAMED => Some(named),
-        bad => Some(format!("{named}; and {} rows more", bad - ROWS_NAMED)),
+        bad => {
+            let more = bad - ROWS_NAMED;
+            Some(format!("{named}; and {more} row{} more", if more == 1 { "" } else { "s" }))
+        }
     }
 }

@@ -107,7 +107,7 @@ impl Fit<'_> {
                 name: name.to_owned(),
                 unit,
                 value,
-                interval: [value * (-half).exp(), value * half.min(700.0).exp()],
+                interval: [value * (-half).exp(), value * half.min(300.0).exp()],
                 told: half < TOLD && !self.is_unbounded(k),
             }
         };

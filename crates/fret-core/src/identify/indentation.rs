@@ -6,7 +6,7 @@
 
 use super::error::{IdentifyError, refused};
 use super::found::{Constant, TOLD};
-use super::indentation_fit::{FARTHEST, Fit, Known, fit};
+use super::indentation_fit::{FARTHEST, FARTHEST_TOUCH, Fit, Known, fit};
 use super::indentation_log::Curves;
 use super::indentation_request::{IndentationRequest, Numbers, Part};
 use super::indenter::{Indenter, Pressing};
@@ -22,6 +22,8 @@ const DIFFER: (f64, f64) = (4.0, 0.005);
 const PULLS: f64 = 0.03;
 /// Points lie off the curve by more than noise from this part of the largest load on.
 const OFF: f64 = 0.05;
+/// From this part on the curve is another one, and tells nothing.
+const LOST: f64 = 0.2;
 
 /// What an indentation tells; lengths and forces in the units of the case.
 #[derive(Debug, Clone)]
@@ -39,7 +41,7 @@ pub struct Indentation {
     /// By how much each of them differs on half of the cells along each side, in its unit: a sign of what the grid does, which is not in the
     /// intervals, and no bound of it. `None` where that is not solved.
     pub grid: Option<Vec<f64>>,
-    /// The depth at which the indenter touches.
+    /// The depth at which the indenter touches, as the log counts it.
     pub touch: f64,
     /// Compliance of the frame [length/force].
     pub frame: f64,
@@ -78,8 +80,15 @@ pub fn indentation(
             help: "name a number of the case, or fit the frame".to_owned(),
         });
     }
+    if let Some(touch) = request.touch.filter(|touch| !touch.is_finite()) {
+        return Err(IdentifyError::Log {
+            what: format!("touch: {touch} is no finite number"),
+            help: "give the depth at first touch as the log counts it, in the unit of the case".to_owned(),
+        });
+    }
     let curves = Curves::read((name, bytes), case.units.as_ref(), request)?;
-    let known = Known { touch: request.touch, frame: case.springs().normal, fits_frame: request.frame };
+    let touch = request.touch.map(|touch| curves.sign * touch);
+    let known = Known { touch, frame: case.springs().normal, fits_frame: request.frame };
     let indenter = Indenter::new(case, numbers)?;
     let start: Vec<f64> = numbers.keys.iter().map(|(_, value)| *value).collect();
     let mut fit = fit(name, indenter, &start, [&curves.depths, &curves.loads], known)?;
@@ -94,7 +103,7 @@ pub fn indentation(
     let has_units = case.units.is_some() || curves.has_units;
     let mut found = answer(&fit, &curves, &names, (units, has_units))?;
     found.part = request.part;
-    found.grid = coarser.map(|moved| in_units(&fit, moved.as_slice()));
+    found.grid = coarser.map(|moved| in_units(&fit, moved.as_slice(), curves.sign));
     found.notes.extend(notes_of_grid(&found));
     found.notes.extend(notes);
     Ok(found)
@@ -107,31 +116,57 @@ pub(super) fn answer<P: Pressing>(
     names: &[&str],
     (units, has_units): (Units, bool),
 ) -> Result<Indentation, IdentifyError> {
-    let lost = || refused(&curves.name, "the curve cannot be fitted: its numbers do not determine it", "");
+    let lost = || {
+        let what = "the curve cannot be fitted: its numbers do not determine it";
+        refused(
+            &curves.name,
+            what,
+            "fit fewer numbers, or compare bodies, profile and units of the case with those of the test",
+        )
+    };
     let sure = fit.sureness().ok_or_else(lost)?;
     let (touch, frame) = (fit.touch(), fit.frame());
-    let constants = constants(fit, &sure, names);
-    let mut notes = curves.notes.clone();
-    let shaky: Vec<&str> =
-        constants.iter().filter(|constant| !constant.told).map(|constant| constant.name.as_str()).collect();
-    if !shaky.is_empty() {
-        notes.push(format!(
-            "the curve does not tell {}: it hardly changes with it, or changes in the same way with something else that is fitted",
-            shaky.join(", ")
-        ));
-    }
-    if !fit.stands {
-        notes.push("the numbers still moved in the last round of the fit: they are those of a curve that comes near, not of the nearest".to_owned());
-    }
     let point = |(depth, load): (&f64, &f64)| {
         let seen = fit.seen(*depth)?;
         Some([depth - touch, *load, seen.load])
     };
     let points: Vec<[f64; 3]> =
         curves.depths.iter().zip(&curves.loads).map(point).collect::<Option<_>>().ok_or_else(lost)?;
-    let most = fit.units[1];
+    let most = fit.loads.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let square = points.iter().map(|[_, load, computed]| (load - computed).powi(2)).sum::<f64>();
-    let noise = (square / (points.len() - fit.parameters.len()) as f64).sqrt() / most;
+    let freedom = points.len().saturating_sub(fit.parameters.len()).max(1);
+    let noise = (square / freedom as f64).sqrt() / most;
+    if !noise.is_finite() {
+        return Err(lost());
+    }
+    let mut constants = constants(fit, &sure, names, curves.sign);
+    let mut notes = curves.notes.clone();
+    notes.extend(notes_of_bounds(fit, names));
+    // Where numbers act as one, the grid follows what nothing holds.
+    let wanders = fit.grid_moves && sure.halves.iter().all(|half| half.is_finite());
+    let touch_is_bound = fit.place_of_touch().is_some_and(|place| fit.is_bound(place));
+    if noise > LOST {
+        notes.push(format!(
+            "the fit found no curve near the points ({:.0} % of the largest load off): nothing is told; compare profile, bodies and units of the case with the test, or start from other values",
+            100.0 * noise
+        ));
+    } else if wanders {
+        notes.push("the contact of the fitted numbers left each grid that was made for it: nothing is told; start from values nearer to those fitted, or fit fewer numbers".to_owned());
+    }
+    let is_lost = noise > LOST || wanders || touch_is_bound;
+    constants.iter_mut().for_each(|constant| constant.told &= !is_lost);
+    let is_shaky = |(k, constant): &(usize, &Constant)| !constant.told && !fit.is_bound(*k);
+    let shaky: Vec<&str> =
+        constants.iter().enumerate().filter(is_shaky).map(|(_, constant)| constant.name.as_str()).collect();
+    if !shaky.is_empty() && !is_lost {
+        notes.push(format!(
+            "the curve does not tell {}: it hardly changes with it, or changes in the same way with something else that is fitted",
+            shaky.join(", ")
+        ));
+    }
+    if !fit.stands && !is_lost {
+        notes.push("the numbers still moved in the last round of the fit: they are those of a curve that comes near, not of the nearest".to_owned());
+    }
     notes.extend(notes_of_residuals(curves, &points, (noise, sure.correlation), most));
     let deepest = points.iter().fold(0.0_f64, |most, point| most.max(point[0]));
     let along = |k: usize| {
@@ -146,7 +181,7 @@ pub(super) fn answer<P: Pressing>(
         part: Part::default(),
         constants,
         grid: None,
-        touch,
+        touch: curves.sign * touch,
         frame,
         noise,
         correlation: sure.correlation,
@@ -161,7 +196,7 @@ pub(super) fn answer<P: Pressing>(
 }
 
 /// The constants with their intervals.
-fn constants<P: Pressing>(fit: &Fit<'_, P>, sure: &Sureness, names: &[&str]) -> Vec<Constant> {
+fn constants<P: Pressing>(fit: &Fit<'_, P>, sure: &Sureness, names: &[&str], sign: f64) -> Vec<Constant> {
     let [length, force] = fit.units;
     let number = |(k, (name, value)): (usize, (&&str, f64))| {
         let half = sure.halves[k];
@@ -169,8 +204,8 @@ fn constants<P: Pressing>(fit: &Fit<'_, P>, sure: &Sureness, names: &[&str]) -> 
             name: (*name).to_owned(),
             unit: unit_of(name),
             value,
-            interval: [value * (-half).exp(), value * half.min(FARTHEST).exp()],
-            told: half < TOLD && fit.parameters[k].abs() < FARTHEST,
+            interval: [value * (-half.min(FARTHEST)).exp(), value * half.min(FARTHEST).exp()],
+            told: half < TOLD && !fit.is_bound(k),
         }
     };
     let mut found: Vec<Constant> = names.iter().zip(fit.values()).enumerate().map(number).collect();
@@ -180,20 +215,39 @@ fn constants<P: Pressing>(fit: &Fit<'_, P>, sure: &Sureness, names: &[&str]) -> 
         // Of a curve of which nothing bounds it: as far as it may be.
         let apart = half.min(1e3) * scale;
         let interval = [value - apart, value + apart];
-        found.push(Constant { name: name.to_owned(), unit, value, interval, told: half < TOLD });
+        let is_bound = fit.is_bound(place);
+        found.push(Constant { name: name.to_owned(), unit, value, interval, told: half < TOLD && !is_bound });
     };
-    linear("depth at first touch", "length", fit.touch(), fit.place_of_touch(), length);
+    linear("depth at first touch", "length", sign * fit.touch(), fit.place_of_touch(), length);
     linear("frame compliance", "length/force", fit.frame(), fit.place_of_frame(), length / force);
     found
 }
 
+/// Parameters that went as far as they may: the points do not bound them.
+fn notes_of_bounds<P: Pressing>(fit: &Fit<'_, P>, names: &[&str]) -> Vec<String> {
+    let note = |k: usize| {
+        match names.get(k) {
+        Some(name) => {
+            format!("{name} went as far from its start as it may, a factor of {:.0}: not told", FARTHEST.exp())
+        }
+        None if fit.place_of_touch() == Some(k) => {
+            format!(
+                "the depth at first touch went {FARTHEST_TOUCH} ranges of the depth away from where the points let it be guessed: nothing is told; is the load counted from zero?"
+            )
+        }
+        None => "the frame compliance would be negative: it is held at zero and not told; the other numbers are those of a rigid frame".to_owned(),
+    }
+    };
+    (0..fit.parameters.len()).filter(|k| fit.is_bound(*k)).map(note).collect()
+}
+
 /// Changes of the parameters of a fit as those of its constants.
-fn in_units<P: Pressing>(fit: &Fit<'_, P>, moved: &[f64]) -> Vec<f64> {
+fn in_units<P: Pressing>(fit: &Fit<'_, P>, moved: &[f64], sign: f64) -> Vec<f64> {
     let [length, force] = fit.units;
     let values = fit.values();
     let change = |(k, moved): (usize, &f64)| match values.get(k) {
         Some(value) => value * moved,
-        None if fit.place_of_touch() == Some(k) => length * moved,
+        None if fit.place_of_touch() == Some(k) => sign * length * moved,
         None => length / force * moved,
     };
     moved.iter().enumerate().map(change).collect()
@@ -238,7 +292,8 @@ fn notes_of_residuals(
     let independent = (count * (1.0 - correlation) / (1.0 + correlation)).max(1.0);
     if correlation > 0.0 {
         notes.push(format!(
-            "the residuals of neighbouring points are correlated ({correlation:.2}), as those of a filtered signal are, or the computed curve has another shape: the intervals are those of {independent:.0} independent points in place of {count}"
+            "the residuals of neighbouring points are correlated ({correlation:.2}), as those of a filtered signal are, or the computed curve has another shape: the intervals are those of {independent:.0} independent point{} in place of {count}",
+            if independent < 1.5 { "" } else { "s" }
         ));
     }
     let top = curves.top;
@@ -264,7 +319,7 @@ fn notes_of_residuals(
             100.0 * lowest
         ));
     }
-    if noise > OFF {
+    if noise > OFF && noise <= LOST {
         notes.push(format!(
             "the points lie {:.0} % of the largest load off the curve: more than noise; the case describes another contact",
             100.0 * noise

@@ -18,20 +18,29 @@ use super::intervals::{Left, Sureness, sureness};
 use super::load_curve::{Curve, Seen};
 use super::turns::{noise, range};
 
-/// Parts of the largest load by whose depths a first guess of the touch is made, as of a sphere: load as the depth to the power of 1.5.
-const GUESS: [f64; 2] = [0.1, 0.6];
+/// The touch is guessed by rows with more than this part of the largest load, first as of a sphere: load as the depth to the power of 1.5.
+const GUESS: f64 = 0.05;
+const SPHERE: f64 = 1.5;
+/// The touch does not go farther than this from its guess, over the range of depths.
+pub const FARTHEST_TOUCH: f64 = 3.0;
 /// Curves reach so far beyond the deepest contact.
 const BEYOND: f64 = 1.15;
 /// Noise below this part of the range does not count: what a curve is off is more.
 const QUIET: f64 = 1e-4;
 /// The noise of one signal over that of the other, relative to the ranges, at the most.
 const UNEQUAL: f64 = 4.0;
-/// Rounds, in which the feet of the points follow the solution, at the most; in the first of them the grid follows, too.
-const ROUNDS: usize = 12;
-const ROUNDS_OF_GRIDS: usize = 2;
+/// Rounds, in which the feet of the points follow the solution, at the most. The grid follows in the first of them, and where the numbers or the
+/// deepest contact have moved by more than `SAME_GRID`, relative, since it was made.
+const ROUNDS: usize = 14;
+const ROUNDS_OF_GRIDS: [usize; 2] = [2, 8];
+const SAME_GRID: f64 = 0.02;
+/// Numbers whose derivatives are parallel to this part differ by what the grid does to them: they act as one.
+const PARALLEL: f64 = 0.03;
 /// Rounds end when no parameter moves more than this part of its half-width, or this much by itself.
 const STANDS: f64 = 5e-3;
 const STANDS_BY_ITSELF: f64 = 1e-7;
+/// Rows of loading, at the least, by which the touch is guessed.
+const FEWEST_ROWS: usize = 5;
 /// Steps to the foot of a point.
 const STEPS_TO_FOOT: usize = 4;
 /// Residual of every point beside a curve that cannot be solved: more than any other.
@@ -40,7 +49,7 @@ const UNSOLVED: f64 = 1e6;
 pub const FARTHEST: f64 = 7.0;
 /// Singular values below this are nothing.
 const NOTHING: f64 = 1e-9;
-/// A frame pushes back at the most this much of the depth: what a fit may try on its way.
+/// A frame pushes back at the most this much of the depth: what a fit may try on its way. One that ends below zero is held at zero.
 const PUSHES: f64 = -0.3;
 
 /// What is known besides the numbers of the case.
@@ -75,6 +84,10 @@ pub struct Fit<'a, P> {
     pub histories: usize,
     /// Whether the rounds ended because nothing moved any more.
     pub stands: bool,
+    /// Whether the grid had to follow the numbers to the last.
+    pub grid_moves: bool,
+    /// Whether the compliance of the frame is held: it would be negative.
+    pub holds_frame: bool,
 }
 
 /// The foot of a point on the curve.
@@ -107,7 +120,7 @@ pub fn fit<'a, P: Pressing>(
         depths,
         loads,
         known,
-        touch: known.touch.unwrap_or_else(|| first_touch(depths, loads)),
+        touch: known.touch.unwrap_or_else(|| first_touch([depths, loads], known.frame, SPHERE)),
         units,
         noises: noises([depths, loads], units),
         feet: Vec::new(),
@@ -117,56 +130,46 @@ pub fn fit<'a, P: Pressing>(
         now: None,
         histories: 0,
         stands: false,
+        grid_moves: false,
+        holds_frame: known.fits_frame,
     };
     if let Some(place) = fit.place_of_frame() {
         fit.parameters[place] = known.frame * units[1] / units[0];
     }
-    for round in 0..ROUNDS {
-        if round < ROUNDS_OF_GRIDS {
-            let deepest = fit.deepest();
-            if !(deepest > 0.0) {
-                let what =
-                    format!("no depth is larger than {:.6e}, at which the indenter touches", fit.touch());
-                return Err(refused(
-                    name,
-                    &what,
-                    "is the depth at first touch right, and in the unit of the case?",
-                ));
-            }
-            let values = fit.values();
-            fit.indenter.reach(&values, BEYOND * deepest)?;
-            let (curve, histories) = fit.indenter.pressed(&values)?;
-            (fit.now, fit.histories) = (Some(curve), fit.histories + histories);
-        }
-        let before = fit.parameters.clone();
-        fit = fit.minimized(name)?;
-        let sure = fit.sureness();
-        let stands = |k: usize| {
-            let moved = (fit.parameters[k] - before[k]).abs();
-            moved < STANDS_BY_ITSELF || sure.as_ref().is_some_and(|sure| moved < STANDS * sure.halves[k])
-        };
-        fit.stands = (0..before.len()).all(stands);
-        if round >= ROUNDS_OF_GRIDS && fit.stands {
-            break;
+    // A first round without the frame: it would make up for a touch that is only guessed.
+    let mut grid = None;
+    fit = fit.rounds(name, &mut grid, if known.fits_frame { 1 } else { ROUNDS })?;
+    if let Some(place) = fit.place_of_frame() {
+        fit.holds_frame = false;
+        fit = fit.rounds(name, &mut grid, ROUNDS)?;
+        if fit.parameters[place] < 0.0 {
+            fit.parameters[place] = 0.0;
+            fit.holds_frame = true;
+            fit.now = None;
+            fit = fit.rounds(name, &mut grid, ROUNDS)?;
         }
     }
     Ok(fit)
 }
 
-/// Where the indenter touches, for a start.
-fn first_touch(depths: &[f64], loads: &[f64]) -> f64 {
+/// Where the indenter touches, for a start: by regression of the depth against the load to a power, over the rows of loading.
+fn first_touch([depths, loads]: [&[f64]; 2], frame: f64, exponent: f64) -> f64 {
     let [_, most] = range(loads);
-    let [low, high] = GUESS.map(|part| {
-        let mut rows: Vec<usize> = (0..loads.len()).collect();
-        rows.sort_by(|one, other| {
-            let off = |row: usize| (loads[row] - part * most).abs();
-            off(*one).total_cmp(&off(*other))
-        });
-        rows.truncate((loads.len() / 20).max(1));
-        rows.iter().map(|row| depths[*row]).sum::<f64>() / rows.len() as f64
-    });
-    let ratio = (GUESS[0] / GUESS[1]).powf(2.0 / 3.0);
-    (low - ratio * high) / (1.0 - ratio)
+    let top = loads.iter().position(|load| *load >= most).unwrap_or(0);
+    let presses = |row: &usize| loads[*row] > GUESS * most;
+    let mut rows: Vec<usize> = (0..=top).filter(presses).collect();
+    if rows.len() < FEWEST_ROWS {
+        rows = (0..loads.len()).filter(presses).collect();
+    }
+    let own: Vec<[f64; 2]> = rows
+        .iter()
+        .map(|&row| [(loads[row] / most).powf(1.0 / exponent), depths[row] - frame * loads[row]])
+        .collect();
+    let mean = |k: usize| own.iter().map(|point| point[k]).sum::<f64>() / own.len() as f64;
+    let [x, depth] = [mean(0), mean(1)];
+    let square: f64 = own.iter().map(|point| (point[0] - x).powi(2)).sum();
+    let slope = own.iter().map(|point| (point[0] - x) * (point[1] - depth)).sum::<f64>() / square;
+    if slope > 0.0 && slope.is_finite() { depth - slope * x } else { range(depths)[0] }
 }
 
 /// Noise of depth and load, as large as the ranges together.
@@ -178,7 +181,66 @@ fn noises([depths, loads]: [&[f64]; 2], units: [f64; 2]) -> [f64; 2] {
     [ratio * force * units[0], force * units[1]]
 }
 
+/// What a grid was made for: logarithms of the numbers, and the deepest contact.
+type MadeFor = Option<(Vec<f64>, f64)>;
+
 impl<P: Pressing> Fit<'_, P> {
+    /// Rounds until nothing moves any more, or so many.
+    fn rounds(mut self, name: &str, grid: &mut MadeFor, most: usize) -> Result<Self, IdentifyError> {
+        let mut grids = 0;
+        for round in 0..most {
+            let follows = round < ROUNDS_OF_GRIDS[0] || self.now.is_none() || self.has_left(grid);
+            if follows && grids < ROUNDS_OF_GRIDS[1] {
+                self.solve_on_new_grid(name, grid)?;
+                grids += 1;
+            }
+            let before = self.parameters.clone();
+            self = self.minimized(name)?;
+            let sure = self.sureness();
+            let stands = |k: usize| {
+                let moved = (self.parameters[k] - before[k]).abs();
+                moved < STANDS_BY_ITSELF || sure.as_ref().is_some_and(|sure| moved < STANDS * sure.halves[k])
+            };
+            self.stands = (0..before.len()).all(stands);
+            self.grid_moves = self.has_left(grid);
+            if round >= ROUNDS_OF_GRIDS[0] && self.stands && !self.grid_moves {
+                break;
+            }
+        }
+        Ok(self)
+    }
+
+    /// Whether the contact is another one than that for which the grid was made.
+    fn has_left(&self, grid: &MadeFor) -> bool {
+        let Some((parameters, deepest)) = grid else { return true };
+        let apart = |(k, before): (usize, &f64)| (self.parameters[k] - before).abs() > SAME_GRID;
+        parameters.iter().enumerate().any(apart) || (self.deepest() / deepest).ln().abs() > SAME_GRID
+    }
+
+    /// The curve of the parameters, on a grid made for them.
+    fn solve_on_new_grid(&mut self, name: &str, grid: &mut MadeFor) -> Result<(), IdentifyError> {
+        let deepest = self.deepest();
+        if !(deepest > 0.0) {
+            let what = format!("no depth is larger than {:.6e}, at which the indenter touches", self.touch());
+            return Err(refused(
+                name,
+                &what,
+                "is the depth at first touch right, and in the unit of the case?",
+            ));
+        }
+        let values = self.values();
+        self.indenter.reach(&values, BEYOND * deepest)?;
+        let (curve, histories) = self.indenter.pressed(&values)?;
+        if grid.is_none() && self.known.touch.is_none() {
+            // The power is that of the case's own curve.
+            let [load, slope] = curve.at(0.5 * deepest);
+            self.touch = first_touch([self.depths, self.loads], self.frame(), slope * 0.5 * deepest / load);
+        }
+        (self.now, self.histories) = (Some(curve), self.histories + histories);
+        *grid = Some((self.parameters.as_slice()[..self.start.len()].to_vec(), deepest));
+        Ok(())
+    }
+
     fn minimized(mut self, name: &str) -> Result<Self, IdentifyError> {
         self.find_feet();
         let (fit, report) =
@@ -211,9 +273,22 @@ impl<P: Pressing> Fit<'_, P> {
         self.known.fits_frame.then(|| self.parameters.len() - 1)
     }
 
-    /// The depth at which the indenter touches.
+    /// Whether a parameter went as far as it may.
+    pub fn is_bound(&self, place: usize) -> bool {
+        if self.place_of_frame() == Some(place) {
+            return self.holds_frame;
+        }
+        let farthest = if self.place_of_touch() == Some(place) { FARTHEST_TOUCH } else { FARTHEST };
+        self.parameters[place].abs() >= farthest
+    }
+
+    /// The depth at which the indenter touches, counted as pressing.
     pub fn touch(&self) -> f64 {
-        self.touch + self.place_of_touch().map_or(0.0, |place| self.parameters[place] * self.units[0])
+        let farthest = FARTHEST_TOUCH;
+        self.touch
+            + self
+                .place_of_touch()
+                .map_or(0.0, |place| self.parameters[place].clamp(-farthest, farthest) * self.units[0])
     }
 
     /// Compliance of the frame [length/force].
@@ -281,12 +356,38 @@ impl<P: Pressing> Fit<'_, P> {
         let of_force: Vec<f64> =
             self.feet.iter().map(|foot| (foot.weight * self.noises[1]).powi(2)).collect();
         let nothing = DVector::zeros(residuals.len());
-        sureness(&Left {
+        let mut sure = sureness(&Left {
             jacobian: &jacobian,
             residuals: &residuals,
             of_force: &of_force,
             bend: (nothing, 0.0),
-        })
+        })?;
+        for k in self.acting_as_one(&jacobian) {
+            sure.halves[k] = f64::INFINITY;
+        }
+        Some(sure)
+    }
+
+    /// Numbers of the case whose derivatives are those of others but for what the grid does: modulus and radius of a sphere act by
+    /// `E sqrt(R)`. A thin residual of a clean log would otherwise tell them by the error of the grid.
+    fn acting_as_one(&self, jacobian: &DMatrix<f64>) -> Vec<usize> {
+        let mut columns = jacobian.columns(0, self.start.len()).into_owned();
+        for mut column in columns.column_iter_mut() {
+            let size = column.norm();
+            if size > 0.0 {
+                column /= size;
+            }
+        }
+        if columns.ncols() < 2 {
+            return Vec::new();
+        }
+        let decomposition = columns.svd(false, true);
+        let Some(directions) = decomposition.v_t else { return Vec::new() };
+        let values = &decomposition.singular_values;
+        let has_part = |k: &usize| {
+            (0..values.len()).any(|row| values[row] < PARALLEL && directions[(row, *k)].abs() > 0.1)
+        };
+        (0..self.start.len()).filter(has_part).collect()
     }
 }
 
@@ -329,7 +430,7 @@ impl<P: Pressing> LeastSquaresProblem<f64, Dyn, Dyn> for Fit<'_, P> {
             if let Some(place) = self.place_of_touch() {
                 jacobian[(row, place)] = foot.weight * foot.slope * self.units[0];
             }
-            if let Some(place) = self.place_of_frame() {
+            if let (Some(place), false) = (self.place_of_frame(), self.holds_frame) {
                 let [load, _] = now.at(foot.depth);
                 jacobian[(row, place)] = foot.weight * foot.slope * load * self.units[0] / self.units[1];
             }

@@ -4,7 +4,7 @@ use super::error::{IdentifyError, refused};
 use super::indentation_request::{IndentationRequest, Part};
 use super::turns::range;
 use crate::case::Units;
-use crate::measured::{Kind, Role, Table, read, scales};
+use crate::measured::{BadRow, Kind, Role, Table, read, scales};
 
 /// Depth of the indenter, and load, among the roles.
 const DEPTH: usize = 0;
@@ -56,6 +56,8 @@ static ROLES: [Role; 2] = [
 
 /// Rows, at the least.
 const FEWEST_ROWS: usize = 12;
+/// Rows without a number are skipped up to so many in a sequence, and this part of all rows.
+const SKIPPED: (usize, f64) = (3, 0.1);
 /// Load over the largest one from which on an indenter holds.
 const HOLDS: f64 = 0.99;
 
@@ -69,6 +71,8 @@ pub struct Curves {
     /// The row of the largest load: what comes before is loading.
     pub top: usize,
     pub has_units: bool,
+    /// Of the depths here over those of the log: -1 where the log counts them the other way.
+    pub sign: f64,
     pub bad_rows: Vec<String>,
     pub notes: Vec<String>,
 }
@@ -89,15 +93,17 @@ impl Curves {
         let of =
             |role: usize| -> Vec<f64> { table.of(role).iter().map(|value| value * scale[role]).collect() };
         let (mut depths, mut loads) = (of(DEPTH), of(LOAD));
+        few_skipped(&table)?;
         enough(&table)?;
         let [low, high] = range(&loads);
         if low.abs() > high.abs() {
             loads = loads.iter().map(|load| -load).collect();
             notes.push("the load is largest below zero: its sign was turned".to_owned());
         }
-        if !deepens(&depths, &loads) {
+        let deepens = deepens(&depths, &loads);
+        if !deepens {
             depths = depths.iter().map(|depth| -depth).collect();
-            notes.push("the depth falls where the load grows: its sign was turned".to_owned());
+            notes.push("the depth falls where the load grows: its sign was turned for the fit; the depth at first touch is told as the log counts it".to_owned());
         }
         let has_units = table.columns.iter().flatten().any(|column| column.unit.is_some());
         let bad_rows = table.bad.into_iter().map(|row| row.what).collect();
@@ -108,6 +114,7 @@ impl Curves {
             lines: table.lines,
             top: 0,
             has_units,
+            sign: if deepens { 1.0 } else { -1.0 },
             bad_rows,
             notes,
         };
@@ -142,6 +149,23 @@ impl Curves {
         self.top = usize::midpoint(first, last).saturating_sub(rows.start).min(rows.len());
         Ok(self)
     }
+}
+
+/// Whether rows without a number are so few that skipping them leaves the curve.
+fn few_skipped(table: &Table) -> Result<(), IdentifyError> {
+    let bad = &table.bad;
+    let (longest, part) = SKIPPED;
+    let follows = |rows: &[BadRow]| rows.windows(2).all(|two| two[1].line == two[0].line + 1);
+    let sequence = bad.windows(longest + 1).find(|rows| follows(rows)).map(|rows| &rows[0]);
+    let many = bad.first().filter(|_| bad.len() as f64 > part * (bad.len() + table.lines.len()) as f64);
+    let Some(first) = sequence.or(many) else { return Ok(()) };
+    let what = format!(
+        "{} of {} rows have no number, too many to skip; the first of them: {}",
+        bad.len(),
+        bad.len() + table.lines.len(),
+        first.what
+    );
+    Err(refused(&table.name, &what, &format!("{}, without separators of thousands", first.help)))
 }
 
 /// Whether there are rows for a curve, and something changes in them.

@@ -61,6 +61,14 @@ impl<'a> Indenter<'a> {
                 });
             }
         }
+        if let Some((name, _)) = numbers.keys.iter().find(|(name, _)| name.ends_with("flat_punch.radius")) {
+            return Err(IdentifyError::Log {
+                what: format!(
+                    "{name}: the load changes with it in steps of whole cells, which cannot be fitted"
+                ),
+                help: "measure the radius of a flat punch, and fit what is pressed".to_owned(),
+            });
+        }
         Ok(Self { numbers, depths: Vec::new(), size: case.size })
     }
 
@@ -175,7 +183,10 @@ impl Pressing for Indenter<'_> {
             None => self.by_differences(values)?,
         };
         let curve = Curve::through(&self.points(&found.loads), &found.by).ok_or_else(|| {
-            refusal("does not touch at the measured depths", "compare profile and units with the test")
+            refusal(
+                "does not touch at the measured depths",
+                "compare profile and units with the test; with few cells the contact may lie between them: grid.cells larger, grid.size = \"auto\"",
+            )
         })?;
         Ok((curve, found.histories))
     }

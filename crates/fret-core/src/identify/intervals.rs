@@ -19,8 +19,10 @@ const CHANCE: f64 = 2.33;
 const MOST: f64 = 0.98;
 /// The variance of one noise over that of the other, at the least: a loop tells the smaller one badly.
 const LEAST_SHARE: f64 = 0.25;
-/// Singular values below this, relative to the largest, are nothing.
+/// Singular values below this, relative to the largest, are nothing: the points do not tell their directions.
 const NOTHING: f64 = 1e-9;
+/// A constant has a part in a direction from so much of it on.
+const PART: f64 = 1e-6;
 
 /// What a fit leaves.
 pub struct Left<'a> {
@@ -36,7 +38,7 @@ pub struct Left<'a> {
 
 /// How sure the constants are.
 pub struct Sureness {
-    /// Half-widths of 95 % intervals.
+    /// Half-widths of 95 % intervals; infinite for constants that the points do not tell.
     pub halves: Vec<f64>,
     /// The same without the bend of the drift.
     pub halves_of_straight: Vec<f64>,
@@ -53,7 +55,7 @@ pub fn sureness(left: &Left<'_>) -> Option<Sureness> {
     }
     let residuals = left.residuals;
     let mean_square = residuals.norm_squared() / freedom;
-    let inverse = inverse_of_square(left.jacobian)?;
+    let (inverse, untold) = inverse_of_square(left.jacobian)?;
     let own = variances(left, &inverse, mean_square);
     let correlation = correlation(residuals, constants);
     // The fit takes more from correlated noise than from independent one: what residuals are left of it, by tr(V) - tr(H V).
@@ -71,7 +73,8 @@ pub fn sureness(left: &Left<'_>) -> Option<Sureness> {
         .map_or(1.96, |law| law.inverse_cdf(0.975));
     let half = |k: usize, unsure: f64| {
         let variance = straight[(k, k)].max(of_equal[(k, k)]).max(0.0);
-        quantile * (variance + (unsure * by_bend[k]).powi(2)).sqrt()
+        let half = quantile * (variance + (unsure * by_bend[k]).powi(2)).sqrt();
+        if untold[k] || half.is_nan() { f64::INFINITY } else { half }
     };
     Some(Sureness {
         halves: (0..constants).map(|k| half(k, *unsure)).collect(),
@@ -80,22 +83,20 @@ pub fn sureness(left: &Left<'_>) -> Option<Sureness> {
     })
 }
 
-/// `(J^T J)^-1`, by singular values.
-fn inverse_of_square(jacobian: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+/// `(J^T J)^-1` in the directions that the points tell, by singular values; and which constants have a part in one that they do not.
+fn inverse_of_square(jacobian: &DMatrix<f64>) -> Option<(DMatrix<f64>, Vec<bool>)> {
     let decomposition = jacobian.clone().svd(false, true);
     let directions = decomposition.v_t?;
     let largest = decomposition.singular_values.max();
     let constants = jacobian.ncols();
-    Some(DMatrix::from_fn(constants, constants, |k, l| {
-        decomposition
-            .singular_values
-            .iter()
-            .enumerate()
-            .map(|(row, value)| {
-                directions[(row, k)] * directions[(row, l)] / value.max(NOTHING * largest).powi(2)
-            })
-            .sum()
-    }))
+    let values = &decomposition.singular_values;
+    let is_told = |row: usize| values[row] > NOTHING * largest;
+    let inverse = DMatrix::from_fn(constants, constants, |k, l| {
+        let told = (0..values.len()).filter(|row| is_told(*row));
+        told.map(|row| directions[(row, k)] * directions[(row, l)] / values[row].powi(2)).sum()
+    });
+    let has_part = |k: usize| (0..values.len()).any(|row| !is_told(row) && directions[(row, k)].abs() > PART);
+    Some((inverse, (0..constants).map(has_part).collect()))
 }
 
 /// `sum_ij x_i r^|i - j| x_j^T` over the rows.
@@ -119,7 +120,7 @@ fn correlation(residuals: &DVector<f64>, constants: usize) -> f64 {
     let products: f64 = (1..count).map(|row| residuals[row] * residuals[row - 1]).sum();
     let found = products / square;
     let chance = CHANCE / (count as f64).sqrt();
-    if found <= chance {
+    if found.is_nan() || found <= chance {
         return 0.0;
     }
     let whole = (found + constants as f64 * (1.0 + found) / count as f64).min(MOST);
@@ -174,6 +175,28 @@ fn variances(left: &Left<'_>, inverse: &DMatrix<f64>, mean_square: f64) -> Vec<f
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Points on a line through zero tell its slope; not a constant without any part in them, nor two that act as one.
+    #[test]
+    fn what_does_not_matter_is_not_told() {
+        let residuals = DVector::from_fn(20, |row, _| 0.01 * ((7 * row * row) as f64).sin());
+        let halves = |columns: &[fn(f64) -> f64]| {
+            let jacobian = DMatrix::from_fn(20, columns.len(), |row, k| columns[k](row as f64));
+            let left = Left {
+                jacobian: &jacobian,
+                residuals: &residuals,
+                of_force: &[1.0; 20],
+                bend: (DVector::zeros(20), 0.0),
+            };
+            sureness(&left).unwrap().halves
+        };
+        let alone = halves(&[|x| x])[0];
+        let beside = halves(&[|x| x, |_| 0.0]);
+        assert!((beside[0] / alone - 1.0).abs() < 0.2 && beside[1].is_infinite(), "{alone} {beside:?}");
+        let twins = halves(&[|x| x, |_| 1.0, |x| 2.0 * x]);
+        assert!(twins[0].is_infinite() && twins[1].is_finite() && twins[2].is_infinite(), "{twins:?}");
+        assert!(halves(&[|_| 0.0])[0].is_infinite());
+    }
 
     /// The quick sum over rows is the double sum.
     #[test]

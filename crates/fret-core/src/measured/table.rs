@@ -24,6 +24,8 @@ pub struct Column {
 /// A row that is skipped.
 #[derive(Debug, Clone)]
 pub struct BadRow {
+    /// Its line, from 1.
+    pub line: usize,
     /// Its line and what is wrong there.
     pub what: String,
     /// What to do about it.
@@ -184,6 +186,7 @@ impl Rows<'_> {
         let column = self.table.columns[role].as_ref().map_or("", |column| &column.name);
         if cell.is_empty() {
             return BadRow {
+                line,
                 what: format!("line {line}: nothing stands in column {column:?}"),
                 help: "delete the line, or write the value that was measured",
             };
@@ -193,6 +196,7 @@ impl Rows<'_> {
             shown += "...";
         }
         BadRow {
+            line,
             what: format!("line {line}, column {column:?}: {shown:?} {why}"),
             help: "numbers look like 1.5e-6, or 1,5 where semicolons or tabs part the columns",
         }

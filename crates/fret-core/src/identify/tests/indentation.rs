@@ -488,3 +488,102 @@ fn intervals_of_films_hold_in_ninety_of_a_hundred() {
         }
     }
 }
+
+/// Hertz: `P = 4/3 E* sqrt(R) d^1.5`, R = 1.
+fn hertz(d: f64) -> f64 {
+    4.0 / 3.0 * MODULUS * d.powf(1.5)
+}
+
+/// A sphere by its modulus and radius.
+fn sphere(values: &[f64]) -> String {
+    let body = format!("lower.substrate = {{ young = {:?}, poisson = 0.3 }}", values[0]);
+    text(&format!("profile.sphere.radius = {:?}", values[1]), &body, 32)
+}
+
+/// A sphere tells `E sqrt(R)`: neither of the two alone, whether there is noise or not.
+#[test]
+fn modulus_and_radius_of_a_sphere_are_not_told_together() {
+    let keys = [("lower.substrate.young", 50e3), ("profile.sphere.radius", 1.0)];
+    let test = Test { deepest: 1e-3, load: &hertz, frame: 0.0 };
+    for noise in [0.0, 0.01] {
+        let both = found(&sphere, &keys, &test.log([noise; 2], 1), &IndentationRequest::default()).unwrap();
+        assert!(both.constants[..2].iter().all(|constant| !constant.told), "{:?}", both.constants);
+    }
+}
+
+/// The contact of a sphere with the right radius is larger than that of one with half of it: the grid follows. To the error of 32 cells.
+#[test]
+fn a_radius_is_found_from_half_of_it() {
+    let case = |values: &[f64]| sphere(&[70e3, values[0]]);
+    let test = Test { deepest: 1e-3, load: &hertz, frame: 0.0 };
+    let request = IndentationRequest::default();
+    let radius = &found(&case, &[("profile.sphere.radius", 0.5)], &test.log([0.0; 2], 0), &request)
+        .unwrap()
+        .constants[0];
+    assert!(radius.told && (radius.value - 1.0).abs() < 0.01, "{radius:?}");
+}
+
+/// A log from half of the depth on, of a rigid frame: its modulus is found with the frame, too, which is not negative.
+#[test]
+fn a_log_that_begins_deep_is_fitted_with_its_frame() {
+    let case = |values: &[f64]| sphere(&[values[0], 1.0]);
+    let log = Test { deepest: 1e-3, load: &hertz, frame: 0.0 }.log([0.003; 2], 3);
+    let is_deep = |line: &&str| line.split(';').next().unwrap().parse::<f64>().is_ok_and(|depth| depth > 0.8);
+    let rows: Vec<&str> = log.lines().take(1).chain(log.lines().filter(is_deep)).collect();
+    let request = IndentationRequest { frame: true, ..IndentationRequest::default() };
+    let deep = found(&case, &[("lower.substrate.young", 50e3)], &rows.join("\n"), &request).unwrap();
+    let young = &deep.constants[0];
+    assert!(deep.frame >= 0.0, "{deep:?}");
+    assert!(
+        young.interval[0] < 1.01 * 70e3 && young.interval[1] > 0.99 * 70e3 && young.value < 1.3 * 70e3,
+        "{young:?} {:?}",
+        deep.notes
+    );
+}
+
+/// Where the depth is counted downwards, the touch is told and asked for as the log counts it.
+#[test]
+fn the_touch_is_told_as_the_log_counts_it() {
+    let case = |values: &[f64]| sphere(&[values[0], 1.0]);
+    let log = Test { deepest: 1e-3, load: &hertz, frame: 0.0 }.log([0.0; 2], 0);
+    let turned: Vec<String> = log
+        .lines()
+        .map(|line| match line.split_once(';') {
+            Some((depth, load)) if depth.parse::<f64>().is_ok() => {
+                format!("{};{load}", -depth.parse::<f64>().unwrap())
+            }
+            _ => line.to_owned(),
+        })
+        .collect();
+    let key = [("lower.substrate.young", 50e3)];
+    let of = |touch| {
+        let request = IndentationRequest { touch, ..IndentationRequest::default() };
+        found(&case, &key, &turned.join("\n"), &request).unwrap()
+    };
+    let free = of(None);
+    assert!(
+        (free.touch + 0.3e-3).abs() < 2e-6 && free.constants[1].value == free.touch,
+        "{:?}",
+        free.constants
+    );
+    let young = of(Some(-0.3e-3)).constants[0].value;
+    assert!((young / 70e3 - 1.0).abs() < 0.01, "{young}");
+    let request = IndentationRequest { touch: Some(f64::NAN), ..IndentationRequest::default() };
+    assert!(found(&case, &key, &log, &request).unwrap_err().to_string().contains("no finite number"));
+}
+
+/// Thousands with separators are no numbers, and those rows no few to skip: the first of them is named.
+#[test]
+fn rows_without_numbers_in_a_sequence_are_refused() {
+    let log = Test { deepest: 1e-3, load: &hertz, frame: 0.0 }.log([0.0; 2], 0);
+    let rows: Vec<String> = log
+        .lines()
+        .enumerate()
+        .map(|(row, line)| if (90..94).contains(&row) { "0.9;1,022.624".to_owned() } else { line.to_owned() })
+        .collect();
+    let case = |values: &[f64]| sphere(&[values[0], 1.0]);
+    let key = [("lower.substrate.young", 50e3)];
+    let refused = found(&case, &key, &rows.join("\n"), &IndentationRequest::default()).unwrap_err();
+    let words = refused.to_string();
+    assert!(words.contains("line 91") && words.contains("1,022.624"), "{words}");
+}
