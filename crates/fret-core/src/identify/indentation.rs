@@ -154,7 +154,9 @@ pub(super) fn answer<P: Pressing>(
         notes.push("the contact of the fitted numbers left each grid that was made for it: nothing is told; start from values nearer to those fitted, or fit fewer numbers".to_owned());
     }
     let is_lost = noise > LOST || wanders || touch_is_bound;
-    constants.iter_mut().for_each(|constant| constant.told &= !is_lost);
+    for constant in &mut constants {
+        constant.told &= !is_lost;
+    }
     let is_shaky = |(k, constant): &(usize, &Constant)| !constant.told && !fit.is_bound(*k);
     let shaky: Vec<&str> =
         constants.iter().enumerate().filter(is_shaky).map(|(_, constant)| constant.name.as_str()).collect();
