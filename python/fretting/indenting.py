@@ -191,7 +191,14 @@ def identify_indentation(
         raise ValueError("fit: nothing is fitted but the depth at first touch; name a key of the case, or frame=True")
     named = {"columns": {} if columns is None else columns, "units": {} if units is None else units}
     names_of, units_of = (list(mapping(name, given).items()) for name, given in named.items())
-    names_of = [(role, str(int(column)) if isinstance(column, int | np.integer) and not isinstance(column, bool) else of_kind("columns", column, str)) for role, column in names_of]
+    names_of = [(role, _column(column)) for role, column in names_of]
     asked = names_of, units_of, keys, part, touch, frame, strict
     json_text, page = _core.identify_indentation((str(log), content("log", log)), _case.read(case), asked, threads)
     return Indentation(json.loads(json_text), page)
+
+
+def _column(column: object) -> str:
+    """Return the name of a column; a number counts from 1."""
+    if isinstance(column, int | np.integer) and not isinstance(column, bool):
+        return str(int(column))
+    return of_kind("columns", column, str)
