@@ -231,7 +231,9 @@ impl<'a> IncrementProblem<'a> {
         let asked = x.hypot(y) * self.grid.cell_area();
         let by = if self.friction.has_strength() {
             Carried::Strength
-        } else if self.friction.is_uniform() && self.normal.total.is_some() {
+        } else if self.friction.is_uniform()
+            && (self.normal.total.is_some() || self.coupling != Coupling::Coupled)
+        {
             Carried::Coefficient
         } else {
             Carried::Sliding
