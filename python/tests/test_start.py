@@ -129,14 +129,14 @@ def failing(case: dict[str, Any]) -> dict[str, Any]:
 
 def test_what_was_solved_before_a_failure_is_in_the_exception(case: dict[str, Any]) -> None:
     whole = fretting.run(with_load(case, {"approach": 70e-9, "increments": 4}, RUB))
-    with pytest.raises(fretting.RunError, match=r"increment 4 .*above mu P") as raised:
+    with pytest.raises(fretting.RunError, match=r"increment 4 .*above what friction carries") as raised:
         fretting.run(failing(case))
     error = raised.value
     history = error.history
     assert history is not None
     assert (error.increment, len(history), history.finished, history.status) == (4, 4, False, "failed")
     assert history.message is not None
-    assert "above mu P" in history.message
+    assert "above what friction carries" in history.message
     assert "not the whole history: failed" in repr(history)
     np.testing.assert_array_equal(history.increments["approach"], whole.increments["approach"][:4])
     assert history.kept_increments == [3]
