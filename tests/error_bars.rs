@@ -110,7 +110,7 @@ fn bare(all: &mut Vec<Judged>) {
     }
 }
 
-/// Cattaneo and Mindlin, there, back, and round a loop: like bodies without Poisson's ratio, for which the form is exact.
+/// Cattaneo and Mindlin, there, back, and round a loop: elastically similar bodies without Poisson's ratio, for which the form is exact.
 fn rubbed(all: &mut Vec<Judged>) {
     for (cells, share, increments) in [
         (24, 0.3, 4),

@@ -210,7 +210,7 @@ fn pressing_with_coupling_is_that_of_a_dense_program() {
 
 #[test]
 fn a_long_period_comes_to_the_same() {
-    // Between periodic neighbours at a distance L pressure and shear of like bodies differ by (a/L)^2, 1e-3 at 16 grids; the periodic
+    // Between periodic neighbours at a distance L pressure and shear of elastically similar bodies differ by (a/L)^2, 1e-3 at 16 grids; the periodic
     // operator is the waves' own, not the cells', so that on the same cells both differ by their error: a quarter on four times
     // the cells (roots at the edges: 4^-3/2, and cells that change zone).
     let difference = |cells: usize| {
@@ -304,7 +304,7 @@ fn what_has_no_meaning_in_a_line_contact_is_refused_with_its_place() {
 
 #[test]
 fn stress_under_a_sliding_cylinder_follows_muskhelishvili() {
-    // Hertz pressure with shear mu p, full sliding of like bodies: Johnson (1985), 4.45 and 7.2, with m and n of McEwen (1949); at the
+    // Hertz pressure with shear mu p, full sliding of elastically similar bodies: Johnson (1985), 4.45 and 7.2, with m and n of McEwen (1949); at the
     // surface sigma_xx = -p0 [sqrt(1 - x^2/a^2) + 2 mu x/a] inside, and 2 mu p0 behind the trailing edge
     let cylinder = like_bodies(512);
     let (mu, hertz) = (0.5, cylinder.hertz());

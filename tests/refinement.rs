@@ -67,7 +67,7 @@ fn cells_show_the_orders_of_a_hertz_contact() {
     assert!(!advice.concluded && advised.errors.worst(Form::Between).unwrap() <= 1e-2);
 }
 
-/// Between like bodies pressure and shear do not act on each other, and while the force runs one way all that slipped goes on
+/// Between elastically similar bodies pressure and shear do not act on each other, and while the force runs one way all that slipped goes on
 /// slipping: the increments on the way change nothing, here up to the solver's tolerance.
 #[test]
 fn increments_change_nothing_where_the_way_does_not_matter() {

@@ -166,7 +166,7 @@ fn derivatives_that_would_be_wrong_are_refused() {
             "load[1].tangential_force[1]",
             "it is 0",
         ),
-        // like bodies, coupled with other constants: with torsion that is of first order even under a sphere
+        // elastically similar bodies, coupled with other constants: with torsion that is of first order even under a sphere
         (
             ball(
                 "0.3",

@@ -156,7 +156,7 @@ fn totals_count_every_cycle_that_a_computed_one_stands_for() {
     assert_eq!((stood_for, cycles.last().unwrap().last_cycle), (40, 40));
     assert!(cycles.len() < 40);
     let sum: f64 = cycles.iter().map(|cycle| cycle.dissipated_energy * cycle.stands_for as f64).sum();
-    // Pressing at one increment of like bodies dissipates nothing; the rest are sums of the same numbers in another order.
+    // Pressing at one increment of elastically similar bodies dissipates nothing; the rest are sums of the same numbers in another order.
     assert!((last.dissipated_energy / sum - 1.0).abs() < 1e-12, "{} {sum}", last.dissipated_energy);
     assert!((last.worn_volume / (5.0 * last.dissipated_energy) - 1.0).abs() < 1e-12, "{}", last.worn_volume);
     for cycle in cycles {

@@ -4,14 +4,13 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from fretting import _case, _core
-from fretting._arguments import checked, content, mapping, of_kind
-from fretting.errors import UnreadableError
+from fretting._arguments import checked, content, mapping
+from fretting._fitted import Fitted
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -36,7 +35,7 @@ class Constant:
     told: bool
 
 
-class Identification:
+class Identification(Fitted):
     """What a measured log tells; returned by :func:`fretting.identify`.
 
     Attributes
@@ -69,9 +68,7 @@ class Identification:
     """
 
     def __init__(self, answer: Mapping[str, Any], page: str) -> None:
-        if not isinstance(answer, Mapping) or "parameters" not in answer:
-            raise TypeError(f"answer: expected what a fit gives (fretting.identify), found {type(answer).__name__}")
-        self._answer, self._page = answer, of_kind("page", page, str)
+        super().__init__(answer, page, "identify", "cycles")
         self.constants = {
             entry["name"]: Constant(entry["value"], (entry["low"], entry["high"]), entry["told"])
             for entry in answer["parameters"]
@@ -85,31 +82,12 @@ class Identification:
         self.sliding_condition: str = answer["sliding_condition"]
         self.sliding_conditions: list[dict[str, Any]] = [dict(span) for span in answer["sliding_conditions"]]
         self.removed: dict[str, float | None] = dict(answer["removed"])
-        self.noise: float = answer["noise"]
         self.normal_force: float = answer["normal_force"]
-        self.notes: list[str] = list(answer["notes"])
-        self.measured = {name: np.array(values) for name, values in answer["measured"].items()}
-        self.computed = {name: np.array(values) for name, values in answer["computed"].items()}
 
     def __repr__(self) -> str:
         """Return the constants and the sliding condition in one line."""
         told = ", ".join(f"{name} = {entry.value:.4g}" for name, entry in self.constants.items() if entry.told)
         return f"Identification({told}; {self.sliding_condition})"
-
-    def to_json(self) -> str:
-        """Return all of it as ``fret identify`` writes it into ``identified.json``."""
-        return json.dumps(self._answer, indent=2)
-
-    @checked
-    def save(self, folder: str | PathLike[str]) -> None:
-        """Write ``identified.json`` and the page ``identified.html`` with its pictures into a folder."""
-        place = Path(folder)
-        try:
-            place.mkdir(parents=True, exist_ok=True)
-            (place / "identified.json").write_text(self.to_json() + "\n", encoding="utf-8")
-            (place / "identified.html").write_text(self._page, encoding="utf-8")
-        except OSError as error:
-            raise UnreadableError(f"error: {place}: {error.strerror or error}", str(place)) from None
 
     @checked
     def plot(self, ax: "Axes | None" = None) -> "Axes":

@@ -4,14 +4,13 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from fretting import _case, _core
 from fretting._arguments import checked, content, mapping, of_kind
-from fretting.errors import UnreadableError
+from fretting._fitted import Fitted
 from fretting.identifying import Constant
 
 if TYPE_CHECKING:
@@ -37,7 +36,7 @@ class FittedNumber(Constant):
     change_on_half_the_cells: float | None
 
 
-class Indentation:
+class Indentation(Fitted):
     """What a measured indentation tells; returned by :func:`fretting.identify_indentation`.
 
     Attributes
@@ -65,10 +64,7 @@ class Indentation:
     """
 
     def __init__(self, answer: Mapping[str, Any], page: str) -> None:
-        if not isinstance(answer, Mapping) or "solved_indentations" not in answer:
-            found = type(answer).__name__
-            raise TypeError(f"answer: expected what a fit gives (fretting.identify_indentation), found {found}")
-        self._answer, self._page = answer, of_kind("page", page, str)
+        super().__init__(answer, page, "identify_indentation", "solved_indentations")
         self.constants = {
             entry["name"]: FittedNumber(
                 entry["value"], (entry["low"], entry["high"]), entry["told"], entry["change_on_half_the_cells"]
@@ -77,32 +73,13 @@ class Indentation:
         }
         self.touch: float = answer["touch"]
         self.frame_compliance: float = answer["frame_compliance"]
-        self.noise: float = answer["noise"]
         self.correlation: float = answer["correlation"]
         self.solved_indentations: int = answer["solved_indentations"]
-        self.notes: list[str] = list(answer["notes"])
-        self.measured = {name: np.array(values) for name, values in answer["measured"].items()}
-        self.computed = {name: np.array(values) for name, values in answer["computed"].items()}
 
     def __repr__(self) -> str:
         """Return the constants in one line."""
         told = ", ".join(f"{name} = {entry.value:.4g}" for name, entry in self.constants.items() if entry.told)
         return f"Indentation({told})"
-
-    def to_json(self) -> str:
-        """Return all of it as ``fret identify --indentation`` writes it into ``identified.json``."""
-        return json.dumps(self._answer, indent=2)
-
-    @checked
-    def save(self, folder: str | PathLike[str]) -> None:
-        """Write ``identified.json`` and the page ``identified.html`` with its pictures into a folder."""
-        place = Path(folder)
-        try:
-            place.mkdir(parents=True, exist_ok=True)
-            (place / "identified.json").write_text(self.to_json() + "\n", encoding="utf-8")
-            (place / "identified.html").write_text(self._page, encoding="utf-8")
-        except OSError as error:
-            raise UnreadableError(f"error: {place}: {error.strerror or error}", str(place)) from None
 
     @checked
     def plot(self, ax: "Axes | None" = None) -> "Axes":

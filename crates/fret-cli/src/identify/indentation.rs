@@ -4,9 +4,9 @@ use fret_core::case::Units;
 use fret_core::identify::{self, Constant, Indentation, IndentationRequest, Numbers};
 use fret_core::model::Dimension;
 use maud::{Markup, html};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use super::record::rows_in_words;
+use super::record::{of_constant, rows_in_words};
 use super::{case_with, dotted, value_of};
 use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::scale::Label;
@@ -67,21 +67,15 @@ impl IndentationAnswer {
         let found = &self.found;
         let along = |k: usize| found.points.iter().map(|point| point[k]).collect::<Vec<f64>>();
         let computed = |k: usize| found.computed.iter().map(|point| point[k]).collect::<Vec<f64>>();
-        let parameters: Vec<Value> = found
+        let parameters: Vec<Map<String, Value>> = found
             .constants
             .iter()
             .enumerate()
             .map(|(k, constant)| {
-                let [low, high] = constant.interval;
-                json!({
-                    "name": constant.name,
-                    "unit": constant.unit,
-                    "value": constant.value,
-                    "low": low,
-                    "high": high,
-                    "told": constant.told,
-                    "change_on_half_the_cells": found.grid.as_ref().map(|grid| grid[k]),
-                })
+                let mut entry = of_constant(constant);
+                let change = found.grid.as_ref().map(|grid| grid[k]);
+                entry.insert("change_on_half_the_cells".to_owned(), json!(change));
+                entry
             })
             .collect();
         json!({

@@ -1,6 +1,6 @@
 //! An identification as `identified.json` has it.
 
-use fret_core::identify::{Cycle, Identification};
+use fret_core::identify::{Constant, Cycle, Identification};
 use serde_json::{Map, Value, json};
 
 use super::over_cycles;
@@ -13,27 +13,12 @@ const ROWS_NAMED: usize = 3;
 pub fn record(found: &Identification) -> Value {
     let fitted = &found.fitted_cycle().measured;
     let along = |k: usize| found.computed.iter().map(|point| point[k]).collect::<Vec<f64>>();
-    let constants: Vec<Value> = found
-        .constants
-        .iter()
-        .map(|constant| {
-            let [low, high] = constant.interval;
-            json!({
-                "name": constant.name,
-                "unit": constant.unit,
-                "value": constant.value,
-                "low": low,
-                "high": high,
-                "told": constant.told,
-            })
-        })
-        .collect();
     json!({
         "log": found.log,
         "units": {"length": found.units.length, "force": found.units.force},
         "cycle": fitted.name,
         "normal_force": found.normal_force,
-        "parameters": constants,
+        "parameters": found.constants.iter().map(of_constant).collect::<Vec<_>>(),
         "noise": found.noise,
         "removed": {
             "displacement_offset": found.removed.displacement_offset,
@@ -52,6 +37,20 @@ pub fn record(found: &Identification) -> Value {
         "computed": {"displacement": along(0), "force": along(1), "shift": along(2)},
         "notes": found.notes,
     })
+}
+
+/// A fitted constant.
+pub fn of_constant(constant: &Constant) -> Map<String, Value> {
+    let [low, high] = constant.interval;
+    let entries = [
+        ("name", json!(constant.name)),
+        ("unit", json!(constant.unit)),
+        ("value", json!(constant.value)),
+        ("low", json!(low)),
+        ("high", json!(high)),
+        ("told", json!(constant.told)),
+    ];
+    entries.map(|(key, value)| (key.to_owned(), value)).into_iter().collect()
 }
 
 /// A cycle by the names of the columns of the table.

@@ -4,15 +4,24 @@
 //! knows, and the compliance of its frame. Intervals are those of `intervals`: linear about the solution, with noise of load and depth and the
 //! correlation of neighbours; the error of the grid is not in them.
 
+mod fit;
+mod indenter;
+mod load_curve;
+mod log;
+mod request;
+mod start;
+#[cfg(test)]
+mod tests;
+
 use super::error::{IdentifyError, refused};
 use super::found::{Constant, TOLD};
-use super::indentation_fit::{FARTHEST, FARTHEST_TOUCH, Fit, Known, fit};
-use super::indentation_log::Curves;
-use super::indentation_request::{IndentationRequest, Numbers, Part};
-use super::indenter::{Indenter, Pressing};
 use super::intervals::Sureness;
 use super::turns::noise as from_row_to_row;
 use crate::case::{Case, Units};
+use fit::{FARTHEST, FARTHEST_TOUCH, Fit, Known, fit};
+use indenter::{Indenter, Pressing};
+use log::Curves;
+pub use request::{IndentationRequest, Numbers, Part};
 
 /// Points of the computed curve.
 const POINTS_OF_CURVE: usize = 60;

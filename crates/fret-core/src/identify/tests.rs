@@ -4,7 +4,6 @@ mod bad_cycles;
 mod coverage;
 mod exports;
 mod friction;
-mod indentation;
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -34,7 +33,7 @@ fn identify(log: &str, case: Case, request: &Request) -> Result<Identification, 
 }
 
 /// A number of the normal distribution.
-fn normal(random: &mut Pcg64Mcg) -> f64 {
+pub(super) fn normal(random: &mut Pcg64Mcg) -> f64 {
     let mut uniform = || (f64::from(random.next_u32()) + 0.5) / 4_294_967_296.0;
     let (radius, angle) = ((-2.0 * uniform().ln()).sqrt(), TAU * uniform());
     radius * angle.cos()

@@ -1,8 +1,8 @@
 //! The curve of load over depth that the solver computes for an indenter: the case, pressed to given depths, with its exact derivatives.
 
-use super::error::IdentifyError;
-use super::indentation_request::Numbers;
+use super::super::error::IdentifyError;
 use super::load_curve::Curve;
+use super::request::Numbers;
 use crate::case::{Case, Course, GridSize, Output, Path, Stage, StageControl};
 use crate::history::Warning;
 use crate::plan::Plan;

@@ -12,23 +12,17 @@ use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationRe
 use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
 
-use super::error::{IdentifyError, refused};
+use super::super::error::{IdentifyError, refused};
+use super::super::intervals::{Left, Sureness, sureness};
+use super::super::turns::range;
 use super::indenter::Pressing;
-use super::intervals::{Left, Sureness, sureness};
 use super::load_curve::{Curve, Seen};
-use super::turns::{noise, range};
+use super::start::{SPHERE, first_touch, noises};
 
-/// The touch is guessed by rows with more than this part of the largest load, first as of a sphere: load as the depth to the power of 1.5.
-const GUESS: f64 = 0.05;
-const SPHERE: f64 = 1.5;
 /// The touch does not go farther than this from its guess, over the range of depths.
 pub const FARTHEST_TOUCH: f64 = 3.0;
 /// Curves reach so far beyond the deepest contact.
 const BEYOND: f64 = 1.15;
-/// Noise below this part of the range does not count: what a curve is off is more.
-const QUIET: f64 = 1e-4;
-/// The noise of one signal over that of the other, relative to the ranges, at the most.
-const UNEQUAL: f64 = 4.0;
 /// Rounds, in which the feet of the points follow the solution, at the most. The grid follows in the first of them, and where the numbers or the
 /// deepest contact have moved by more than `SAME_GRID`, relative, since it was made.
 const ROUNDS: usize = 14;
@@ -39,8 +33,6 @@ const PARALLEL: f64 = 0.03;
 /// Rounds end when no parameter moves more than this part of its half-width, or this much by itself.
 const STANDS: f64 = 5e-3;
 const STANDS_BY_ITSELF: f64 = 1e-7;
-/// Rows of loading, at the least, by which the touch is guessed.
-const FEWEST_ROWS: usize = 5;
 /// Steps to the foot of a point.
 const STEPS_TO_FOOT: usize = 4;
 /// Residual of every point beside a curve that cannot be solved: more than any other.
@@ -150,35 +142,6 @@ pub fn fit<'a, P: Pressing>(
         }
     }
     Ok(fit)
-}
-
-/// Where the indenter touches, for a start: by regression of the depth against the load to a power, over the rows of loading.
-fn first_touch([depths, loads]: [&[f64]; 2], frame: f64, exponent: f64) -> f64 {
-    let [_, most] = range(loads);
-    let top = loads.iter().position(|load| *load >= most).unwrap_or(0);
-    let presses = |row: &usize| loads[*row] > GUESS * most;
-    let mut rows: Vec<usize> = (0..=top).filter(presses).collect();
-    if rows.len() < FEWEST_ROWS {
-        rows = (0..loads.len()).filter(presses).collect();
-    }
-    let own: Vec<[f64; 2]> = rows
-        .iter()
-        .map(|&row| [(loads[row] / most).powf(1.0 / exponent), depths[row] - frame * loads[row]])
-        .collect();
-    let mean = |k: usize| own.iter().map(|point| point[k]).sum::<f64>() / own.len() as f64;
-    let [x, depth] = [mean(0), mean(1)];
-    let square: f64 = own.iter().map(|point| (point[0] - x).powi(2)).sum();
-    let slope = own.iter().map(|point| (point[0] - x) * (point[1] - depth)).sum::<f64>() / square;
-    if slope > 0.0 && slope.is_finite() { depth - slope * x } else { range(depths)[0] }
-}
-
-/// Noise of depth and load, as large as the ranges together.
-fn noises([depths, loads]: [&[f64]; 2], units: [f64; 2]) -> [f64; 2] {
-    let of = |values: &[f64], unit: f64| (noise(values, 0.0) / unit).hypot(QUIET);
-    let [length, force] = [of(depths, units[0]), of(loads, units[1])];
-    let ratio = (length / force).clamp(1.0 / UNEQUAL, UNEQUAL);
-    let force = (2.0 / (1.0 + ratio * ratio)).sqrt();
-    [ratio * force * units[0], force * units[1]]
 }
 
 /// What a grid was made for: logarithms of the numbers, and the deepest contact.

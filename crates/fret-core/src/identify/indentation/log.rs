@@ -1,8 +1,8 @@
 //! A measured indentation: which columns it has, and which of its rows are fitted.
 
-use super::error::{IdentifyError, refused};
-use super::indentation_request::{IndentationRequest, Part};
-use super::turns::range;
+use super::super::error::{IdentifyError, refused};
+use super::super::turns::range;
+use super::request::{IndentationRequest, Part};
 use crate::case::Units;
 use crate::measured::{BadRow, Kind, Role, Table, read, scales};
 
