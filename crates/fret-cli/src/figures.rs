@@ -1,7 +1,7 @@
 //! How numbers, counts and names are shown to a person. Files and JSON carry numbers in full and do not pass here.
 
-use fret_core::case::Units;
 use fret_core::model::Dimension;
+use fret_core::units::Units;
 
 /// A number to five significant figures, in plain digits where that is short.
 pub fn figure(value: f64) -> String {

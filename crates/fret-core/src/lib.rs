@@ -115,12 +115,14 @@ pub mod compliance;
 pub mod conduction;
 mod document;
 mod fields;
+mod heights;
 pub mod history;
 pub mod identify;
 pub mod kernel;
 pub mod machine;
 pub mod measured;
 pub mod model;
+pub mod numbers;
 pub mod plan;
 #[cfg(test)]
 #[path = "../../../tests/random.rs"]
@@ -132,6 +134,7 @@ pub mod solver;
 pub mod study;
 pub mod subsurface;
 pub mod uncertainty;
+pub mod units;
 
 pub use case::{Case, CaseError};
 pub use history::{CycleRecord, History, KeptFields, Start, StepRecord, Warning};

@@ -9,10 +9,10 @@ use std::borrow::Cow;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use fret_core::case::Units;
 use fret_core::history::{FIELDS, Field, FieldValues, KeptFields, ZONE_WORDS};
 use fret_core::model::{ContactState, SurfaceGrid, Zone};
 use fret_core::plan::Plan;
+use fret_core::units::Units;
 use ndarray::Array2;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde_json::{Value, json};

@@ -4,8 +4,9 @@ use std::fs::File;
 use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use fret_core::case::{Case, Units};
+use fret_core::case::Case;
 use fret_core::history::{CYCLE_COLUMNS, Column, CycleRecord, STEP_COLUMNS, StepRecord, Value};
+use fret_core::units::Units;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 

@@ -2,13 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use fret_core::case::{CaseRecord, Side, StressRequest, Units};
+use fret_core::case::{CaseRecord, Side, StressRequest};
 use fret_core::history::{CycleRecord, FIELDS, RunningCondition, running_condition};
 use fret_core::machine::memory;
 use fret_core::model::{Dimension, SurfaceGrid};
 use fret_core::plan::{Coupling, PlanRecord};
 use fret_core::subsurface::EvenStress;
 use fret_core::subsurface::fatigue::LayerConstants;
+use fret_core::units::Units;
 use ndarray::Array2;
 
 use crate::error::ResultsError;

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use fret_core::case::Units;
 use fret_core::history::{STEP_COLUMNS, Value};
+use fret_core::units::Units;
 
 use crate::error::ResultsError;
 use crate::names::HISTORY;

@@ -6,9 +6,9 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use fret_core::case::Units;
 use fret_core::model::Dimension;
 use fret_core::scar::{Asked, Comparison, Line, Pair, compare, read};
+use fret_core::units::Units;
 use ndarray::Array2;
 use serde_json::{Value, json};
 

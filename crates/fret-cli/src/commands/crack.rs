@@ -2,13 +2,13 @@
 
 use std::fmt::Write as _;
 
-use fret_core::case::Units;
 use fret_core::model::{Dimension, HalfSpace};
 use fret_core::subsurface::crack::{CrackCourse, CrackFate, crack_course};
 use fret_core::subsurface::crack_path::{CrackStart, NoCrack, crack_path};
 use fret_core::subsurface::fatigue::{LayerConstants, Parameter};
 use fret_core::subsurface::severity::constants_of;
 use fret_core::subsurface::{LoadedSurface, MostSevere};
+use fret_core::units::Units;
 
 use super::stress_record::CrackRecord;
 use crate::failure::Failure;

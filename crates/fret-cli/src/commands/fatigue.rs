@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use fret_core::case::Units;
 use fret_core::model::{Dimension, HalfSpace};
 use fret_core::subsurface::coating_fracture::Film;
 use fret_core::subsurface::fatigue::{LayerConstants, Parameter};
 use fret_core::subsurface::film_stress::{FilmCrack, FilmStress};
 use fret_core::subsurface::severity::{constants_of, material_of};
 use fret_core::subsurface::{DepthPoint, Judged, LoadedSurface, MostSevere, Severity, StressField};
+use fret_core::units::Units;
 
 use super::crack::{Crack, CrackAnswer};
 use super::stress_record::{

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use fret_core::case::Units;
+use fret_core::units::Units;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// All of it.

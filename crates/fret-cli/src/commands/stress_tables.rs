@@ -3,11 +3,12 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use fret_core::case::{StressRequest, Units};
+use fret_core::case::StressRequest;
 use fret_core::model::{Base, Dimension, HalfSpace};
 use fret_core::subsurface::fatigue::LayerConstants;
 use fret_core::subsurface::largest::look;
 use fret_core::subsurface::{DepthPoint, Largest, LoadedSurface, Measure, StressField};
+use fret_core::units::Units;
 use serde_json::json;
 
 use super::fatigue::{Fatigue, Finished, Picture};

@@ -1,6 +1,6 @@
 //! Pictures of sections: a field over x and depth in false colours, as SVG.
 
-use fret_core::case::Units;
+use fret_core::units::Units;
 
 use crate::drawing::Drawing;
 use crate::drawing::map::Map;

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use fret_core::case::Units;
 use fret_core::model::Dimension;
 use fret_core::plan::Plan;
+use fret_core::units::Units;
 use serde::Deserialize;
 use toml::{Table, Value};
 

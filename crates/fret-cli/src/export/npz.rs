@@ -6,9 +6,9 @@
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use fret_core::case::Units;
 use fret_core::history::{STEP_COLUMNS, Value};
 use fret_core::model::Dimension;
+use fret_core::units::Units;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 

@@ -8,8 +8,8 @@ use std::fs::{self, File};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use fret_core::case::Units;
 use fret_core::model::SurfaceGrid;
+use fret_core::units::Units;
 
 use super::vtk::data_array_end;
 use crate::failure::Unwritten;

@@ -6,7 +6,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use fret_core::case::Units;
+use fret_core::units::Units;
 
 use super::{folder, written};
 use crate::failure::{Failure, Unwritten};

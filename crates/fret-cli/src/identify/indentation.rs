@@ -1,8 +1,8 @@
 //! A measured indentation, and what is told of it: record, text, table and page.
 
-use fret_core::case::Units;
 use fret_core::identify::{self, Constant, Indentation, IndentationRequest, Numbers};
 use fret_core::model::Dimension;
+use fret_core::units::Units;
 use maud::{Markup, html};
 use serde_json::{Map, Value, json};
 

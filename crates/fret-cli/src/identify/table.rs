@@ -1,8 +1,8 @@
 //! The table of the cycles of a log.
 
-use fret_core::case::Units;
 use fret_core::identify::{Cycle, Identification};
 use fret_core::model::Dimension;
+use fret_core::units::Units;
 
 /// A column.
 pub struct Column {

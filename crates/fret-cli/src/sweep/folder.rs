@@ -6,8 +6,9 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use fret_core::case::{Units, content};
+use fret_core::case::content;
 use fret_core::model::{Dimension, digest};
+use fret_core::units::Units;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 

@@ -1,7 +1,7 @@
 //! `points.json`: which points a sweep has, in their order. What is written is what the page of the sweep reads back.
 
-use fret_core::case::Units;
 use fret_core::model::Dimension;
+use fret_core::units::Units;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 

@@ -5,10 +5,10 @@ use std::ops::Range;
 use ndarray::Array2;
 
 use super::judge::Judge;
-use super::numbers::{NumbersError, numbers};
-use super::points;
 use super::surface_file::{ArrayFile, Handed, Row};
+use crate::heights::points;
 use crate::model::Axis;
+use crate::numbers::{NumbersError, numbers};
 
 /// Array of a file, in the order of its rows.
 pub(super) fn of_file(judge: &mut Judge, place: &str, span: Range<usize>, name: &str) -> Option<Array2<f64>> {

@@ -24,11 +24,11 @@ use super::shape::profile;
 use super::stages::{sliding, stages};
 use super::stress::stress;
 use super::substrates::bulk_and_tilt;
-use super::units::Units;
 use super::wearing::wear;
 use crate::document::{At, Mistake, Places};
 use crate::model::stage::Stage;
 use crate::model::{CoulombFriction, Dimension, Displacement};
+use crate::units::Units;
 
 /// Cells along one side of the grid, at the least.
 pub const FEWEST_CELLS: usize = 4;

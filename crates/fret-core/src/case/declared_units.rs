@@ -2,8 +2,8 @@
 
 use super::file::UnitsFile;
 use super::judge::Judge;
-use super::units::Units;
 use crate::document::At;
+use crate::units::Units;
 
 /// Letters of a unit, at most.
 const LONGEST: usize = 12;
@@ -30,7 +30,7 @@ pub(super) fn declared_units(judge: &mut Judge, file: &UnitsFile) -> Option<Unit
 
 #[cfg(test)]
 mod tests {
-    use crate::case::Units;
+    use crate::units::Units;
 
     #[test]
     fn units_of_a_case_are_short_words() {

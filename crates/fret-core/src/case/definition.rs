@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 use super::output::Output;
 use super::refusal::{CaseError, Difference};
 use super::stress::StressRequest;
-use super::units::Units;
 use crate::document::Mistake;
 use crate::kernel::uniform_response;
 use crate::model::stage::Stage;
@@ -15,6 +14,7 @@ use crate::model::{
     WearRule,
 };
 use crate::subsurface::fatigue::LayerConstants;
+use crate::units::Units;
 
 /// A case that has passed every check; with its maps and heights, or as a record of a run has it ([`CaseRecord`]).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use super::attachments::Attachments;
-use super::numbers::letters;
-use super::units::Units;
 use crate::document::{At, Mistake, Places};
 use crate::model::Dimension;
+use crate::numbers::letters;
+use crate::units::Units;
 
 /// Why a case has no mean gap to prescribe, and what to prescribe instead.
 pub(super) type WithoutMeanGap = (&'static str, &'static str);

@@ -4,9 +4,7 @@ use std::ops::Range;
 
 use super::arrays::{self, Cells, Layout};
 use super::file::CaseFile;
-use super::holes::hole;
 use super::judge::Judge;
-use super::numbers::Head;
 use super::surface_file::{
     CrownedRollerFile, CylinderFile, EllipsoidFile, HeightsFile, IndenterFile, LENGTH, OfFile, ProfileFile,
     PyramidFile, RectangularPunchFile, RoundedPunchFile, SphereFile, SpheroConeFile, WaveFile,
@@ -14,7 +12,9 @@ use super::surface_file::{
 };
 use super::topography::{self, Content, Measured, Question};
 use crate::document::At;
+use crate::heights::marks::hole;
 use crate::model::{Axis, Detrend, Heights, Profile, Shape};
+use crate::numbers::Head;
 
 /// The gap, as the sum of all profiles of a case; `None` when something about them was refused.
 pub(super) fn profile(judge: &mut Judge, file: &CaseFile, cells: Option<Cells>) -> Option<Profile> {

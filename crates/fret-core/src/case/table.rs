@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::control_keys::{Column, columns};
-use super::heading::Heading;
 use super::judge::Judge;
-use super::known_units::{Conversion, UnitError, conversion, is_unit, known_units};
-use super::numbers::{NoNumber, number};
 use super::stage_file::StageFile;
 use super::table_layout::{Layout, layout};
 use crate::document::At;
+use crate::numbers::{NoNumber, number};
+use crate::units::Heading;
+use crate::units::{Conversion, UnitError, conversion, is_unit, known_units};
 
 /// Rows of a table, at the most.
 const MOST_ROWS: usize = 1_000_000;

@@ -1,6 +1,6 @@
 //! Where a table of loads begins, and what parts its cells.
 
-use super::numbers::{is_comment, number};
+use crate::numbers::{is_comment, number};
 
 /// Where a table begins.
 pub(super) struct Layout {

@@ -21,7 +21,7 @@ const WIDER: f64 = 1.2;
 pub struct Constant {
     /// What it is called.
     pub name: String,
-    /// Its unit, in the words of [`crate::case::Units::of`].
+    /// Its unit, in the words of [`crate::units::Units::of`].
     pub unit: &'static str,
     /// Its value, in the units of the case.
     pub value: f64,

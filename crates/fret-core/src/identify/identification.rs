@@ -1,8 +1,9 @@
 //! The whole question: a log, identified by a case.
 
-use crate::case::{Case, Units};
+use crate::case::Case;
 use crate::history::{CycleRegime, SLIDING_ENERGY_RATIO};
 use crate::measured::scales;
+use crate::units::Units;
 
 use super::cycles::{self, MeasuredCycle};
 use super::direction::{self, Direction};

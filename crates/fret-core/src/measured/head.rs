@@ -1,6 +1,7 @@
 //! The head of a measured table: which line names the columns, which column holds what, and in which units.
 
-use crate::case::{Heading, is_comment, is_unit, number};
+use crate::numbers::{is_comment, number};
+use crate::units::{Heading, is_unit};
 
 use super::asked::Asked;
 use super::error::{MeasuredError, refused};

@@ -1,6 +1,6 @@
 //! A table of measured numbers: columns below a head, whatever stands above it, with the line of every row.
 
-use crate::case::{NoNumber, is_comment, letters, number};
+use crate::numbers::{NoNumber, is_comment, letters, number};
 
 use super::asked::Asked;
 use super::error::{MeasuredError, refused};

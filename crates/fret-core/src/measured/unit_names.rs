@@ -1,6 +1,6 @@
 //! Units of measured columns, turned into those of a case, and said.
 
-use crate::case::{Units, conversion, known_units};
+use crate::units::{Units, conversion, known_units};
 
 use super::asked::Asked;
 use super::error::{MeasuredError, refused};

@@ -4,10 +4,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::rings::Rings;
-use crate::case::{Path, Units};
+use crate::case::Path;
 use crate::history::{Concern, CycleRecord, STIFFEST, StepRecord, Warning};
 use crate::model::{Base, Body, BulkCompliance, Coating, Control, ElasticMaterial, Shape};
 use crate::plan::Plan;
+use crate::units::Units;
 
 /// What follows from the case alone, with the contact that its plan expects.
 pub fn of_plan(plan: &Plan) -> Vec<Warning> {

@@ -1,9 +1,10 @@
 //! Why a run ends without its answer.
 
 use super::checkpoint::Place;
-use crate::case::{Case, Units, apart};
+use crate::case::{Case, apart};
 use crate::machine::memory::MemoryError;
 use crate::solver::{Carried, SolveError};
+use crate::units::Units;
 
 /// Why a run ended without its answer.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

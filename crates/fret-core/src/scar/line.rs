@@ -1,7 +1,7 @@
 //! Heights along a line, as a profilometer writes them.
 
-use crate::case::Units;
 use crate::measured::{self, Kind, MeasuredError, Role, refused, scales};
+use crate::units::Units;
 
 /// Position along the line, and height there.
 static ROLES: [Role; 2] = [

@@ -7,7 +7,7 @@ use ndarray::Array2;
 use super::keys::TreatmentFile;
 use super::scan::Scan;
 use crate::case::judge::Judge;
-use crate::case::numbers::{Head, NumbersError, head, letters, numbers, numbers_with_holes};
+use crate::numbers::{Head, NumbersError, head, letters, numbers, numbers_with_holes};
 
 /// What to do about points without a measurement.
 pub(in crate::case) const FILL: &str = "fill = \"harmonic\" fills points without a measurement from those around them; or fill them in the program of the instrument";

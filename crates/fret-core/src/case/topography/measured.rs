@@ -6,12 +6,12 @@ use super::keys::ScanSizeFile;
 use super::question::{Measured, Question, SPACING};
 use super::scan::Scan;
 use crate::case::arrays::Layout;
-use crate::case::holes::without_marks;
 use crate::case::judge::Judge;
-use crate::case::known_units::{conversion, known_units};
-use crate::case::numbers::Head;
-use crate::case::points;
+use crate::heights::marks::without_marks;
+use crate::heights::points;
 use crate::model::{Axis, Dimension};
+use crate::numbers::Head;
+use crate::units::{conversion, known_units};
 
 impl Question<'_> {
     /// Heights of a scan; `unit` and `rows` were given for them.

@@ -3,12 +3,9 @@
 //! removed, filtered (`gaussian`), resampled (`resample`).
 
 mod content;
-mod fill;
-mod gaussian;
 pub(super) mod keys;
 mod measured;
 mod question;
-mod resample;
 mod scan;
 mod treated;
 

@@ -6,10 +6,10 @@ use ndarray::{Array2, s};
 
 use super::content::FILL;
 use super::question::{Measured, Question, SPACING};
-use super::{fill, gaussian, resample};
 use crate::case::arrays::Cells;
 use crate::case::judge::Judge;
-use crate::case::points;
+use crate::heights::points;
+use crate::heights::{fill, gaussian, resample};
 use crate::model::{Detrend, Treatment};
 
 impl Question<'_> {

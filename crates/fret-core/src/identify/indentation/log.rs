@@ -3,8 +3,8 @@
 use super::super::error::{IdentifyError, refused};
 use super::super::turns::range;
 use super::request::{IndentationRequest, Part};
-use crate::case::Units;
 use crate::measured::{BadRow, Kind, Role, Table, read, scales};
+use crate::units::Units;
 
 /// Depth of the indenter, and load, among the roles.
 const DEPTH: usize = 0;

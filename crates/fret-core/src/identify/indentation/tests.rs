@@ -14,9 +14,10 @@ use super::indenter::{Indenter, Pressing};
 use super::load_curve::Curve;
 use super::log::Curves;
 use super::{Indentation, IndentationRequest, Numbers, Part, indentation};
-use crate::case::{Case, Units};
+use crate::case::Case;
 use crate::plan::Plan;
 use crate::run::{Silent, Simulation};
+use crate::units::Units;
 
 /// Plane strain modulus of E = 70 GPa and nu = 0.3 [MPa].
 const MODULUS: f64 = 70e3 / (1.0 - 0.09);

@@ -13,7 +13,7 @@ const STEPS_PER_POINT: usize = 20;
 ///
 /// # Errors
 /// In words, where nothing was measured at all, or the equation is not solved.
-pub(super) fn fill(heights: &mut Array2<f64>, weights: [f64; 2]) -> Result<(), &'static str> {
+pub fn fill(heights: &mut Array2<f64>, weights: [f64; 2]) -> Result<(), &'static str> {
     let (nx, ny) = heights.dim();
     let holes: Vec<usize> =
         heights.iter().enumerate().filter(|(_, height)| height.is_nan()).map(|(at, _)| at).collect();

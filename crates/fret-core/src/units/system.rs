@@ -3,6 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::prefixes::{power, prefix};
 use crate::model::Dimension;
 
 /// Declared units.
@@ -65,14 +66,8 @@ impl Units {
     }
 }
 
-/// Powers of ten of the prefixes that lengths and forces have.
-const PREFIXES: [(&str, i32); 8] =
-    [("G", 9), ("M", 6), ("k", 3), ("", 0), ("c", -2), ("m", -3), ("u", -6), ("n", -9)];
-
 fn power_of(unit: &str, base: &str) -> Option<i32> {
-    let prefix = unit.strip_suffix(base)?;
-    let prefix = if matches!(prefix, "µ" | "μ") { "u" } else { prefix };
-    PREFIXES.iter().find(|(known, _)| *known == prefix).map(|(_, power)| *power)
+    power(unit.strip_suffix(base)?)
 }
 
 /// Power of ten of the pressure of a force in newtons and a length in metres, where both have a prefix.
@@ -82,16 +77,7 @@ fn power_of_pressure(length: &str, force: &str) -> Option<i32> {
 
 fn pascals(length: &str, force: &str) -> Option<String> {
     let power = power_of_pressure(length, force)?;
-    let prefix = match power {
-        12 => "T",
-        9 => "G",
-        6 => "M",
-        3 => "k",
-        0 => "",
-        -3 => "m",
-        _ => return None,
-    };
-    Some(format!("{prefix}Pa"))
+    prefix(power).map(|prefix| format!("{prefix}Pa"))
 }
 
 #[cfg(test)]

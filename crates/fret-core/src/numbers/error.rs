@@ -90,7 +90,7 @@ impl NumbersError {
     }
 
     /// What can be read.
-    pub(in crate::case) const A_FILE: &str =
+    pub(crate) const A_FILE: &str =
         "a .npy file, or a text file with one row of numbers per line; relative paths start at the case file";
 
     /// What to do about it.

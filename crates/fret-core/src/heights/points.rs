@@ -8,7 +8,7 @@ const OFF: f64 = 0.1;
 const SPACING: f64 = 1e-3;
 
 /// Whether an array can be a list of points: no grid has two or three cells on a side.
-pub(super) fn is_list(array: &Array2<f64>, cells: [usize; 2]) -> bool {
+pub fn is_list(array: &Array2<f64>, cells: [usize; 2]) -> bool {
     match array.ncols() {
         3 => true,
         2 => cells[1] == 1,
@@ -21,7 +21,7 @@ pub(super) fn is_list(array: &Array2<f64>, cells: [usize; 2]) -> bool {
 ///
 /// # Errors
 /// What is wrong with the points, in words.
-pub(super) fn on_cells(
+pub fn on_cells(
     points: &ArrayView2<'_, f64>,
     cells: [usize; 2],
 ) -> Result<(Array2<f64>, [Option<f64>; 2]), String> {
@@ -63,7 +63,7 @@ pub(super) fn on_cells(
 }
 
 /// The grid that the points lie on, where they fill one.
-pub(super) fn own_cells(points: &ArrayView2<'_, f64>) -> Option<[usize; 2]> {
+pub fn own_cells(points: &ArrayView2<'_, f64>) -> Option<[usize; 2]> {
     let levels = |axis: usize| {
         let mut values: Vec<f64> = points.column(axis).to_vec();
         values.sort_unstable_by(f64::total_cmp);
@@ -111,7 +111,7 @@ impl Places {
 }
 
 /// Refuses points that lie closer or farther apart than the cells, in the case's unit of length and in that of the heights.
-pub(super) fn spacing_refused(points: [Option<f64>; 2], cells: [f64; 2], unit: f64) -> Option<String> {
+pub fn spacing_refused(points: [Option<f64>; 2], cells: [f64; 2], unit: f64) -> Option<String> {
     let fits = |unit: f64| {
         points
             .iter()
@@ -131,7 +131,7 @@ pub(super) fn spacing_refused(points: [Option<f64>; 2], cells: [f64; 2], unit: f
 }
 
 /// A number in six figures.
-pub(super) fn figures(value: f64) -> f64 {
+pub fn figures(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 

@@ -2,25 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::units::Units;
-
-/// Powers of ten of prefixes.
-const PREFIXES: [(&str, i32); 14] = [
-    ("", 0),
-    ("T", 12),
-    ("G", 9),
-    ("M", 6),
-    ("k", 3),
-    ("h", 2),
-    ("da", 1),
-    ("d", -1),
-    ("c", -2),
-    ("m", -3),
-    ("u", -6),
-    ("µ", -6),
-    ("μ", -6),
-    ("n", -9),
-];
+use super::prefixes;
+use super::system::Units;
 
 /// A unit as a number of those of SI, `mantissa 10^power m^length N^force`; angles are numbers, in radians.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -128,8 +111,7 @@ fn power(factor: &str) -> Option<Known> {
 fn symbol(word: &str) -> Option<Known> {
     let with_prefix = |(name, known): &(&str, Known)| {
         let prefix = word.strip_suffix(name)?;
-        let (_, power) = PREFIXES.iter().find(|(known, _)| *known == prefix)?;
-        Some(Known { power: known.power + power, ..*known })
+        Some(Known { power: known.power + prefixes::power(prefix)?, ..*known })
     };
     let without = WITHOUT_PREFIX.iter().find(|(name, _)| *name == word).map(|(_, known)| *known);
     without.or_else(|| WITH_PREFIX.iter().find_map(with_prefix))

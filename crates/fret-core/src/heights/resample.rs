@@ -11,13 +11,13 @@ struct Weights {
 }
 
 /// Places of points along an axis, growing.
-pub(super) fn even(count: usize, spacing: f64) -> Vec<f64> {
+pub fn even(count: usize, spacing: f64) -> Vec<f64> {
     (0..count).map(|point| (point as f64 + 0.5) * spacing).collect()
 }
 
 /// Mean height of every cell: that of the surface which is linear between the points (bilinear in two dimensions). `places` are those
 /// of the points along x and y, `window` from where to where the cells lie. A plane stays the same plane.
-pub(super) fn resampled(
+pub fn resampled(
     heights: &Array2<f64>,
     places: [&[f64]; 2],
     window: &[Range<f64>; 2],

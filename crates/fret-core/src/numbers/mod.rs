@@ -15,7 +15,7 @@ use ndarray::Array2;
 
 pub use comments::{Skipped, is_comment};
 pub use error::NumbersError;
-pub(super) use head::{Head, head};
+pub use head::{Head, head};
 pub use letters::{NoText, letters};
 pub use word::{NoNumber, number};
 
@@ -33,7 +33,7 @@ pub fn numbers(bytes: &[u8]) -> Result<Array2<f64>, NumbersError> {
 ///
 /// # Errors
 /// As [`numbers`].
-pub(super) fn numbers_with_holes(bytes: &[u8]) -> Result<Array2<f64>, NumbersError> {
+pub fn numbers_with_holes(bytes: &[u8]) -> Result<Array2<f64>, NumbersError> {
     read(bytes, true)
 }
 

@@ -6,7 +6,7 @@ use ndarray::{Array2, Axis};
 
 /// Mean of heights under a Gaussian weight that passes half of a wave of length `cutoff` along either axis [points]; beyond the border
 /// the weights that remain are made one again.
-pub(super) fn smoothed(heights: &Array2<f64>, cutoff: [f64; 2]) -> Array2<f64> {
+pub fn smoothed(heights: &Array2<f64>, cutoff: [f64; 2]) -> Array2<f64> {
     let mut smooth = heights.clone();
     for (axis, cutoff) in cutoff.into_iter().enumerate() {
         if smooth.len_of(Axis(axis)) > 1 {

@@ -26,7 +26,7 @@ const HUGE: f64 = 1e30;
 
 /// The first height that stands for a cell without a measurement: one of the numbers that are in use for it, farther from all the
 /// other heights than they are from one another. Its index, and the range of the others.
-pub(super) fn hole(heights: &Array2<f64>) -> Option<([usize; 2], f64, [f64; 2])> {
+pub fn hole(heights: &Array2<f64>) -> Option<([usize; 2], f64, [f64; 2])> {
     let is_mark = |value: f64| is_huge(value) || MARKS.contains(&value);
     let marked = heights.indexed_iter().filter(|(_, value)| is_mark(**value));
     let mut asked: Vec<f64> = Vec::new();
@@ -51,7 +51,7 @@ pub(super) fn hole(heights: &Array2<f64>) -> Option<([usize; 2], f64, [f64; 2])>
 }
 
 /// The same heights with NaN in place of all numbers that stand for a cell without a measurement.
-pub(super) fn without_marks(mut heights: Array2<f64>) -> Array2<f64> {
+pub fn without_marks(mut heights: Array2<f64>) -> Array2<f64> {
     while let Some((_, mark, _)) = hole(&heights) {
         heights.mapv_inplace(|height| if height == mark { f64::NAN } else { height });
     }
