@@ -131,9 +131,20 @@ impl RandomHistory {
     /// The case with so many increments in a cycle.
     pub fn text(&self, increments: usize) -> String {
         let count = |times: f64| (times * increments as f64).round() as usize;
-        let mut text = self.head.clone();
+        self.with_increments(&self.head, &|times| count(times).max(1).to_string())
+    }
+
+    /// The case with increments that the program chooses, to a tolerance.
+    pub fn with_chosen_increments(&self, history_tolerance: f64) -> String {
+        let solver = format!("[solver]\nhistory_tolerance = {history_tolerance}\n");
+        self.with_increments(&self.head.replace("[solver]\n", &solver), &|_| "\"auto\"".to_owned())
+    }
+
+    /// The case with the increments of each stage by their number over that of a cycle.
+    fn with_increments(&self, head: &str, increments: &dyn Fn(f64) -> String) -> String {
+        let mut text = head.to_owned();
         if self.kind != Kind::Ray {
-            let pressing = count(self.pressing);
+            let pressing = increments(self.pressing);
             let _ = write!(
                 text,
                 "[[load]]\nnormal_force = {:e}\nincrements = {pressing}\nramp = \"{}\"\n",
@@ -141,7 +152,7 @@ impl RandomHistory {
             );
         }
         for (controls, times) in &self.stages {
-            let _ = write!(text, "[[load]]\n{controls}increments = {}\n", count(*times).max(1));
+            let _ = write!(text, "[[load]]\n{controls}increments = {}\n", increments(*times));
         }
         text
     }

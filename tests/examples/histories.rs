@@ -2,7 +2,8 @@
 //! in FOLDER: `cargo run --release -p fret-validation --example histories -- FIRST COUNT FOLDER`.
 //!
 //! It prints the medians of the errors over those of end points, the numbers that are twice as far as by end points, those that grow with the
-//! increments, and the operator applications. `HISTORIES_LIST=1` lists them all.
+//! increments, and the operator applications. `HISTORIES_LIST=1` lists them all. `HISTORIES_AUTO=0.03` asks instead how far the increments that
+//! the program chooses to this tolerance are from the reference.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "its output is the table")]
 
@@ -69,9 +70,70 @@ fn row(seed: u64, folder: &Path) -> Result<Row, String> {
     Ok(row)
 }
 
+/// How far a history is from its reference with increments that the program chooses, and what it took.
+struct Chosen {
+    name: String,
+    errors: [f64; 3],
+    applications: usize,
+    parts: usize,
+}
+
+fn chosen(seed: u64, folder: &Path, tolerance: f64) -> Result<Chosen, String> {
+    let history = RandomHistory::drawn(seed);
+    let right = reference(&history, folder)?;
+    let found = solved(&history.with_chosen_increments(tolerance))?;
+    Ok(Chosen {
+        name: format!("{seed} {:?} {}", history.kind, if history.is_line { "line" } else { "point" }),
+        errors: End::of(&found).off(&right).map(f64::abs),
+        applications: found.work().convolutions,
+        parts: found.steps.iter().map(|step| step.parts).sum(),
+    })
+}
+
+/// Of all histories, those within three tolerances of their references.
+fn print_chosen(rows: &[Chosen], tolerance: f64, lists: bool) {
+    let within = |error: f64| error <= 3.0 * tolerance;
+    println!("{} histories, increments chosen to {tolerance}", rows.len());
+    for (quantity, name) in QUANTITIES.into_iter().enumerate() {
+        let errors: Vec<f64> = rows.iter().map(|row| row.errors[quantity]).collect();
+        let (held, worst) = (
+            errors.iter().filter(|error| within(**error)).count(),
+            errors.iter().fold(0.0, |a: f64, b| a.max(*b)),
+        );
+        println!(
+            "{name}: {held} within three tolerances, median {:.1e}, worst {worst:.1e}",
+            median(errors.clone())
+        );
+    }
+    let all = rows.iter().filter(|row| row.errors.iter().all(|error| within(*error))).count();
+    let sum = |of: fn(&Chosen) -> usize| rows.iter().map(of).sum::<usize>();
+    println!(
+        "all three: {all}; parts {}, applications {}",
+        sum(|row| row.parts),
+        sum(|row| row.applications)
+    );
+    for row in rows.iter().filter(|row| lists && !row.errors.iter().all(|error| within(*error))) {
+        println!(
+            "  {} {:?} in {} parts",
+            row.name,
+            row.errors.map(|error| format!("{error:.1e}")),
+            row.parts
+        );
+    }
+}
+
 fn median(mut numbers: Vec<f64>) -> f64 {
     numbers.sort_by(f64::total_cmp);
     numbers.get(numbers.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+/// What is found of all seeds; those that fail are told.
+fn of_all<T: Send>(first: u64, count: u64, of: impl Fn(u64) -> Result<T, String> + Sync) -> Vec<T> {
+    let rows: Vec<_> = (first..first + count).into_par_iter().map(|seed| (seed, of(seed))).collect();
+    let told = |(seed, row): (u64, Result<T, String>)| {
+        row.map_err(|error| eprintln!("{seed}: {}", error.lines().next().unwrap_or_default())).ok()
+    };
+    rows.into_iter().filter_map(told).collect()
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -79,18 +141,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let [first, count, folder] = &words[..] else { return Err("FIRST COUNT FOLDER".into()) };
     let (first, count): (u64, u64) = (first.parse()?, count.parse()?);
     fs::create_dir_all(folder)?;
-    let rows: Vec<Result<Row, (u64, String)>> = (first..first + count)
-        .into_par_iter()
-        .map(|seed| row(seed, Path::new(folder)).map_err(|error| (seed, error)))
-        .collect();
-    let mut solved = Vec::new();
-    for row in rows {
-        match row {
-            Ok(row) => solved.push(row),
-            Err((seed, error)) => eprintln!("{seed}: {}", error.lines().next().unwrap_or_default()),
-        }
-    }
+    let folder = Path::new(folder);
     let lists = std::env::var("HISTORIES_LIST").is_ok();
+    if let Ok(tolerance) = std::env::var("HISTORIES_AUTO") {
+        let tolerance = tolerance.parse()?;
+        print_chosen(&of_all(first, count, |seed| chosen(seed, folder, tolerance)), tolerance, lists);
+        return Ok(());
+    }
+    let solved = of_all(first, count, |seed| row(seed, folder));
     println!("{} histories; {COUNTS:?} increments in a cycle", solved.len());
     for (quantity, name) in QUANTITIES.into_iter().enumerate() {
         let medians = (0..COUNTS.len()).map(|at| {
