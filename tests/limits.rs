@@ -270,6 +270,91 @@ fn a_force_that_sliding_takes_the_pressure_from_is_refused_for_it() {
     assert!((bound / most - 1.0).abs() < 0.01, "{bound} {most}");
 }
 
+/// A rigid ball on a half-space that couples, 24 x 24 cells, with friction that differs from cell to cell.
+fn on_patches(coefficient: impl Fn(usize, usize) -> f64, loads: &str) -> String {
+    let rows: Vec<String> =
+        (0..24).map(|i| format!("{:?}", (0..24).map(|j| coefficient(i, j)).collect::<Vec<f64>>())).collect();
+    format!(
+        "[grid]\ncells = [24, 24]\nsize = [3.0, 3.0]\n[upper]\nrigid = true\n[lower]\nsubstrate = {{ young = 100.0, poisson = 0.0 }}\n\
+         [profile.sphere]\nradius = 10.0\n[friction]\nmap = [{}]\n[[load]]\nnormal_force = 5.0\nincrements = 2\n{loads}",
+        rows.join(", ")
+    )
+}
+
+/// Where a contact on patches slides, pressure goes over from one to another, and with it the centre of rotation: a moment beside a force is
+/// carried up to the one that a prescribed twist slides under, and refused for that number above it.
+#[test]
+fn a_moment_beside_a_force_is_carried_up_to_that_of_a_twist() {
+    let text = |load: &str| {
+        let coefficient = |i: usize, j: usize| if i + j < 20 { 1.2 } else { 0.2 };
+        let force = "[[load]]\ntangential_force = [1.33666, 0.0]\nincrements = 2\n";
+        on_patches(coefficient, &format!("{force}[[load]]\n{load}\n"))
+    };
+    let by_twist = solved(&text("twist = 0.3\nincrements = 12"));
+    let most = by_twist.steps.iter().map(|step| step.twist_moment).fold(0.0, f64::max);
+    for share in [0.97, 0.985, 0.993] {
+        let carried = solved(&text(&format!("twist_moment = {:e}\nincrements = 1", share * most)));
+        assert!((carried.steps.last().unwrap().twist_moment / most - share).abs() < 1e-7);
+    }
+    let refused = run(&text(&format!("twist_moment = {:e}\nincrements = 1", 1.03 * most))).unwrap_err();
+    let RunError::AboveFullSlip { fraction, .. } = refused else { panic!("{refused}") };
+    // the force stays in the twist that slides, and falls in proportion to the moment in what is refused: a little apart
+    assert!((fraction * 1.03 - 1.0).abs() < 0.01, "{fraction}");
+}
+
+/// A force whose contact may turn slides at less than the sum of the bounds: what is above that is refused for it, however little.
+#[test]
+fn a_force_that_turns_the_contact_is_refused_above_that_of_a_shift() {
+    let text = |load: &str| {
+        let coefficient = |i: usize, _: usize| if i < 12 { 0.6 } else { 0.1 };
+        on_patches(coefficient, &format!("[[load]]\ntwist_moment = 0.0\n{load}\n"))
+    };
+    let by_shift = solved(&text("shift = [0.3, 0.0]\nincrements = 12"));
+    let most = by_shift.steps.iter().map(|step| step.tangential_force[0]).fold(0.0, f64::max);
+    let carried = solved(&text(&format!("tangential_force = [{:e}, 0.0]\nincrements = 4", 0.998 * most)));
+    assert!((carried.steps.last().unwrap().tangential_force[0] / most - 0.998).abs() < 1e-7);
+    let refused =
+        run(&text(&format!("tangential_force = [{:e}, 0.0]\nincrements = 4", 1.003 * most))).unwrap_err();
+    let RunError::AboveSliding { bound, .. } = refused else { panic!("{refused}") };
+    // what slides may carry 0.1 % less than the peak on the way
+    assert!((bound / most - 1.0).abs() < 2e-3, "{bound} {most}");
+}
+
+/// A force a thousandth above what a shear strength carries is refused for the force of sliding, not for that of a contact that fell apart on the
+/// way of the iteration.
+#[test]
+fn a_force_just_above_a_shear_strength_is_refused_for_that_of_a_shift() {
+    let text = |load: &str| {
+        let friction = "[friction]\ncoefficient = 0.5\nmax_shear = 1.2\n";
+        let map = on_patches(|_, _| 0.5, &format!("[[load]]\n{load}\n"));
+        let (from, to) = (map.find("[friction]").unwrap(), map.find("[[load]]").unwrap());
+        format!("{}{friction}{}", &map[..from], &map[to..])
+    };
+    let by_shift = solved(&text("shift = [0.3, 0.0]\nincrements = 12"));
+    let most = by_shift.steps.iter().map(|step| step.tangential_force[0]).fold(0.0, f64::max);
+    for share in [1.0009, 1.002, 1.01] {
+        let refused =
+            run(&text(&format!("tangential_force = [{:e}, 0.0]\nincrements = 4", share * most))).unwrap_err();
+        let RunError::AboveSliding { bound, .. } = refused else { panic!("{refused}") };
+        assert!((bound / most - 1.0).abs() < 2e-3, "{bound} {most}");
+    }
+}
+
+/// A triangular pyramid reaches as far again along one side as along the other: the automatic grid holds both.
+#[test]
+fn automatic_sizes_hold_triangular_pyramids() {
+    for indenter in ["berkovich", "cube_corner"] {
+        for load in ["approach = 0.1", "normal_force = 20.0"] {
+            let text = format!(
+                "[grid]\ncells = [48, 48]\nsize = \"auto\"\n[upper]\nrigid = true\n[lower]\nsubstrate = {{ young = 210.0, poisson = 0.3 }}\n\
+                 [profile.pyramid]\nindenter = \"{indenter}\"\n[[load]]\n{load}\nincrements = 2\n"
+            );
+            let history = solved(&text);
+            assert!(history.steps.iter().all(|step| step.footprint.free >= 1), "{indenter} {load}");
+        }
+    }
+}
+
 /// A film that keeps its volume is dragged to one side by shear: the automatic grid holds its contact while it slides.
 #[test]
 fn automatic_sizes_hold_soft_films_that_slide() {

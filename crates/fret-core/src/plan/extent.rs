@@ -25,7 +25,7 @@ pub(super) const MARGIN: f64 = 1.2;
 /// The contact under the heaviest load, without friction, as a coarse grid shows it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ExpectedContact {
-    /// Half of its widths along x and y [length], to a twentieth; of a line contact, its half-width twice.
+    /// How far it reaches from the origin along x and y [length], to a twentieth; of a line contact, its half-width twice.
     pub half_widths: [f64; 2],
     /// Approach [length].
     pub approach: f64,
@@ -34,7 +34,7 @@ pub struct ExpectedContact {
 /// Where the contact stays under the heaviest load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Extent {
-    /// Inside the grid: its widths along x and y, up to a coarse cell, and the approach [length].
+    /// Inside the grid: twice how far it reaches from the origin along x and y, up to a coarse cell, and the approach [length].
     Inside([f64; 2], f64),
     /// It reaches the edge.
     Beyond,
@@ -227,10 +227,12 @@ fn extent_under(case: &Case, size: [f64; 2], normal: Control) -> Extent {
         Err(_) => return Extent::Unknown,
     };
     let pressure = &solved.state.pressure;
+    // The grid lies around the origin, and a contact that is not its own mirror image (of a triangular pyramid) reaches farther on one side.
     let width = |axis: usize| {
-        let touched =
-            pressure.axis_iter(ndarray::Axis(axis)).filter(|line| line.iter().any(|p| *p > 0.0)).count();
-        touched as f64 * spacing[axis]
+        let lines = pressure.axis_iter(ndarray::Axis(axis)).enumerate();
+        let touched = lines.filter(|(_, line)| line.iter().any(|p| *p > 0.0));
+        let reach = touched.map(|(at, _)| (2 * at + 2).max(2 * (cells[axis] - at)) - cells[axis]).max();
+        reach.unwrap_or(0) as f64 * spacing[axis]
     };
     let widths = case.dimension().along(width, width(0));
     if solved.outcome.contact_cells == 0 {

@@ -61,7 +61,9 @@ pub fn solve(
         if !method.left_over().is_finite() {
             return Ok(None);
         }
-        method.projected(tractions, displacements, operators);
+        if !method.projected(tractions, displacements, operators) {
+            return Ok(None);
+        }
         match newton::solve(problem, tractions, displacements, operators, settings, callback) {
             Err(SolveError::NotConverged { .. }) if goes_on => {}
             Err(SolveError::NotConverged { .. }) => return Ok(None),
@@ -182,9 +184,10 @@ impl<'a> AugmentedNewton<'a> {
         tractions: &mut Tractions,
         displacements: &mut Displacements,
         operators: &mut RegionOperators,
-    ) {
-        self.equations.project(&self.here, tractions);
+    ) -> bool {
+        let is_held = self.equations.project(&self.here, tractions);
         operators.compliance.full(tractions.parts(), displacements.parts_mut());
+        is_held
     }
 }
 

@@ -170,11 +170,14 @@ impl<'a> Equations<'a> {
         (normal + weight * weight * tangential).sqrt()
     }
 
-    /// The tractions of a point brought to what the laws allow; cells slip where its trial shear lies outside of their discs.
-    pub fn project(&self, point: &Point, tractions: &mut Tractions) {
+    /// The tractions of a point brought to what the laws allow; cells slip where its trial shear lies outside of their discs. False where no cell
+    /// is left to carry the normal force.
+    pub fn project(&self, point: &Point, tractions: &mut Tractions) -> bool {
         let Self { problem, self_influence: [_, own], .. } = self;
         tractions.clone_from(&point.tractions);
-        project_pressure(&mut tractions.pressure, problem.normal.total, self.tilt.as_ref());
+        if !project_pressure(&mut tractions.pressure, problem.normal.total, self.tilt.as_ref()) {
+            return false;
+        }
         let contact = ContactSet::loaded(&tractions.pressure);
         let bound = problem.friction.packed(&contact).bound(&contact.packed(&tractions.pressure));
         let mut trial = TangentialField::zeros(contact.len());
@@ -186,5 +189,6 @@ impl<'a> Equations<'a> {
         let (motions, resultant) = (problem.motions_of(&contact), problem.to_restore(&shear, &bound.bound));
         ShearProjection::default().project(&mut shear, &sets, &bound.bound, &motions, resultant);
         contact.scatter_tangential(&shear, &mut tractions.shear);
+        true
     }
 }
