@@ -340,6 +340,26 @@ fn a_force_just_above_a_shear_strength_is_refused_for_that_of_a_shift() {
     }
 }
 
+/// Coefficients of 20 to 50 stand for full stick to 1 % of the shift: so says the advice where a larger one is not solved.
+#[test]
+fn coefficients_of_twenty_and_more_stand_for_full_stick() {
+    let shift = |coefficient: f64| {
+        let loads = "[[load]]\nnormal_force = 12.0\nincrements = 4\n[[load]]\ntangential_force = [2.0, 0.5]\nincrements = 2\n";
+        let film = "coatings = [{ thickness = 5e-5, young = 420e9, poisson = 0.2 }]\nsubstrate";
+        let text = ball(24, "\"auto\"", &format!("coefficient = {coefficient}"), loads);
+        let history = run(&text.replace("substrate", film)).map_err(|error| error.to_string());
+        history.map(|history| history.steps.last().unwrap().shift[0])
+    };
+    let stuck = shift(100.0).unwrap();
+    for coefficient in [20.0, 50.0] {
+        let found = shift(coefficient).unwrap();
+        assert!((found / stuck - 1.0).abs() < 0.01, "{coefficient}: {found} {stuck}");
+    }
+    if let Err(refused) = shift(1000.0) {
+        assert!(refused.contains("one of 20 to 50 comes within 1 % of it"), "{refused}");
+    }
+}
+
 /// A triangular pyramid reaches as far again along one side as along the other: the automatic grid holds both.
 #[test]
 fn automatic_sizes_hold_triangular_pyramids() {

@@ -204,6 +204,19 @@ pub fn too_thin(case: &Case, place: &Place, reason: &str) -> RunError {
     RunError::WornTooThin { increment: place.solved, stage, reason: reason.to_owned() }
 }
 
+/// Coefficients from which on contacts of dissimilar bodies wander, and those that come as near to full stick.
+const STICKS: f64 = 100.0;
+
+/// What to try where an increment is not solved, under a coefficient of friction.
+fn way_to_converge(coefficient: f64) -> String {
+    if coefficient >= STICKS {
+        return format!(
+            "a friction.coefficient of {coefficient} stands for full stick, and one of 20 to 50 comes within 1 % of it"
+        );
+    }
+    "try more increments in this stage, or a larger solver.tolerance".to_owned()
+}
+
 /// What a solver's error means for increment `increment` of stage `stage` of a case.
 pub fn run_error(error: &SolveError, increment: usize, case: &Case, stage: usize) -> RunError {
     let (stage, tolerance) = (case.stages[stage].name.clone(), case.tolerance);
@@ -215,7 +228,7 @@ pub fn run_error(error: &SolveError, increment: usize, case: &Case, stage: usize
             reached,
             tolerance,
             iterations,
-            advice: "try more increments in this stage, or a larger solver.tolerance".to_owned(),
+            advice: way_to_converge(case.friction.largest()),
         },
         SolveError::AboveSliding { asked, bound, by } => {
             let (unit, advice) = (unit("force"), case.way_to_slide());
