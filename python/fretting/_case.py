@@ -58,6 +58,31 @@ def table_of(case: CaseLike) -> dict[str, Any]:
     return tomllib.loads(text_of(case)[0])
 
 
+def table_from_anywhere(case: CaseLike) -> dict[str, Any]:
+    """Return a case as a dict of its own, which can be changed and read again: names of files keep their folder."""
+    if isinstance(case, Mapping):
+        return copy.deepcopy({**case})
+    text, name, folder = text_of(case)
+    try:
+        table = tomllib.loads(text)
+    except tomllib.TOMLDecodeError:
+        _core.Case.from_toml(text, name, folder)  # the core says it with the place
+        raise
+    return {key: _moved(value, key, folder) for key, value in table.items()}
+
+
+NAMES_A_FILE = ("file", "map", "friction", "max_shear", "table")
+"""Keys of a case whose words are names of files."""
+
+
+def _moved(value: Any, key: str, folder: Path) -> Any:
+    if isinstance(value, dict):
+        return {name: _moved(item, name, folder) for name, item in value.items()}
+    if isinstance(value, list):
+        return [_moved(item, key, folder) for item in value]
+    return str((folder / value).resolve()) if isinstance(value, str) and key in NAMES_A_FILE else value
+
+
 def text_of(case: str | os.PathLike[str]) -> tuple[str, str, Path]:
     """Return the TOML text of a case that is no mapping, its name in messages, and the folder of its files."""
     if isinstance(case, str) and "\n" in case:

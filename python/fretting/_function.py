@@ -1,7 +1,6 @@
 """Results of a case as a function of some of its numbers: what differentiable programs and optimisers call."""
 
 import copy
-import re
 from collections.abc import Iterable
 from typing import Any
 
@@ -10,7 +9,7 @@ import numpy as np
 from fretting import _case, _core
 from fretting._arguments import texts
 from fretting._arrays import Reals
-from fretting._points import Table, put
+from fretting._points import Table, put_at, steps
 from fretting.differentiating import told, value_of
 from fretting.simulation import run
 
@@ -25,8 +24,8 @@ class Results:
         if not self.of or not self.by:
             raise ValueError("of, by: expected at least one result and one number of the case")
         _core.check_results(self.of)
-        self._table = _case.table_of(case)
-        self._places = [re.findall(r"\w+", path) for path in self.by]
+        self._table = _case.table_from_anywhere(case)
+        self._places = [steps(path) for path in self.by]
         for number, (path, place) in enumerate(zip(self.by, self._places, strict=True)):
             if place in self._places[:number]:
                 raise ValueError(f"by: {path} is named twice")
@@ -45,7 +44,7 @@ class Results:
             )
         case = copy.deepcopy(self._table)
         for place, number in zip(self._places, given, strict=True):
-            put(case, ".".join(place), float(number))
+            put_at(case, place, ".".join(place), float(number))
         return case
 
     def values(self, numbers: Reals) -> Reals:
@@ -68,11 +67,17 @@ class Results:
         return np.array([row["value"] for row in rows]), matrix, near
 
 
+def _entry(items: Any, step: str) -> Any:
+    """What a list has at a number, or under the name of a stage."""
+    named = [item for item in items if isinstance(item, dict) and item.get("name") == step]
+    return named[0] if named else items[int(step)]
+
+
 def _at(table: Any, place: list[str]) -> Any:
     """What stands at a place of a case; None where there is nothing."""
     for step in place:
         try:
-            table = table[int(step)] if isinstance(table, list | tuple) else table[step]
+            table = _entry(table, step) if isinstance(table, list | tuple) else table[step]
         except (LookupError, TypeError, ValueError):
             return None
     return table

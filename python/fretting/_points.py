@@ -3,6 +3,7 @@
 import copy
 import itertools
 import json
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
@@ -217,13 +218,22 @@ def _by_keys(keys: Sequence[str], values: Sequence[Any]) -> Callable[[Table], ob
     return change
 
 
+def steps(path: str) -> list[str]:
+    """Return the parts of a path: words as they are, and numbers, in brackets or as parts of their own."""
+    return [part for part in re.split(r"\.|\[(-?\d+)\]", path) if part]
+
+
 def put(case: Table, key: str, value: object) -> None:
     """Give the value to the entry of a case that a dotted key names.
 
     Parts of the key are names of tables, numbers of a list's entries from 0 (negative: from the end), or, in a list of
     tables, the ``name`` of one (a stage). Tables that are not there are made; entries of lists are not.
     """
-    parts = key.split(".")
+    put_at(case, key.split("."), key, value)
+
+
+def put_at(case: Table, parts: Sequence[str], key: str, value: object) -> None:
+    """Give it to the entry that the parts of the key lead to."""
     here: Any = case
     for depth, part in enumerate(parts):
         last = depth == len(parts) - 1

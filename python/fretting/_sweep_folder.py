@@ -9,16 +9,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from fretting._case import NAMES_A_FILE
 from fretting._core import __version__
 from fretting._points import Table
 from fretting.errors import UnreadableError
 
 FORMAT = 1
 """Version of the folder's format."""
-
-
-_NAMES_A_FILE = ("file", "map", "friction", "max_shear", "table")
-"""Keys of a case whose words are names of files."""
 
 
 class OccupiedError(UnreadableError, FileExistsError):
@@ -132,18 +129,5 @@ def _file_names(value: object, key: str = "") -> Iterator[str]:
     elif isinstance(value, list):
         for item in value:
             yield from _file_names(item, key)
-    elif isinstance(value, str) and key in _NAMES_A_FILE:
+    elif isinstance(value, str) and key in NAMES_A_FILE:
         yield value
-
-
-def with_files_in(case: Table, folder: Path) -> Table:
-    """Return a case whose names of files start at `folder` as one that can be read from anywhere."""
-    return {key: _moved(value, key, folder) for key, value in case.items()}
-
-
-def _moved(value: Any, key: str, folder: Path) -> Any:
-    if isinstance(value, dict):
-        return {name: _moved(item, name, folder) for name, item in value.items()}
-    if isinstance(value, list):
-        return [_moved(item, key, folder) for item in value]
-    return str((folder / value).resolve()) if isinstance(value, str) and key in _NAMES_A_FILE else value

@@ -237,6 +237,24 @@ class FlatPunch(TypedDict):
     """
 
 
+class Formula(TypedDict):
+    """
+    A surface by a formula.
+    """
+
+    expression: str
+    """
+    The gap [length], in a body's own profile the distance of its surface from the plane of first touch, as an expression of x and y
+    [length], counted from the middle of the grid, and of the parameters: "(x^2 + y^2)/(2*R)". Operators + - * / ^, parentheses, pi, and
+    the functions abs, sqrt, exp, ln, log10, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, min, max, hypot, mod. It may be
+    lowest anywhere: the gap is counted from where it touches first.
+    """
+    parameters: NotRequired[dict[str, Any]]
+    """
+    Numbers that the expression names, each a finite number: { R = 10e-3 }.
+    """
+
+
 Frame: TypeAlias = Literal["bodies", "contact"]
 """
 Where the grid is while a contact rolls.
@@ -1023,6 +1041,10 @@ class Profile(TypedDict):
     flat_punch: NotRequired[FlatPunch]
     """
     A flat circular punch.
+    """
+    formula: NotRequired[Formula]
+    """
+    A formula: an expression of x and y.
     """
     heights: NotRequired[Heights]
     """

@@ -1,13 +1,12 @@
 """Propagation of uncertainty to first order: how much results scatter, from their derivatives, without samples."""
 
 import json
-import re
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from fretting import _case, _core, _dataset
 from fretting._arguments import mapping, of_kind, text, texts
-from fretting._points import put
+from fretting._points import put_at, steps
 from fretting.differentiating import near_in_words, told
 from fretting.uncertainty import Distribution
 
@@ -81,10 +80,10 @@ def first_order(
         raise ValueError("of, distributions: expected at least one result and one uncertain number")
     keys = [text("distributions", key) for key in given]
     described = [of_kind(f"distributions[{key!r}]", given[key], Distribution)._described() for key in keys]
-    table = _case.table_of(case)
+    table = _case.table_from_anywhere(case)
     moments = _core.moments(json.dumps(described))
     for key, (mean, _) in zip(keys, moments, strict=True):
-        put(table, ".".join(re.findall(r"\w+", key)), mean)
+        put_at(table, steps(key), key, mean)
     found, near = told(table, names, keys, threads)
     variables: dict[str, Any] = {}
     for name in names:

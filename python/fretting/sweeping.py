@@ -4,7 +4,6 @@ import contextlib
 import json
 import os
 import pickle
-import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor, as_completed
 from pathlib import Path
@@ -19,7 +18,7 @@ from fretting._meaning import MEANING, described
 from fretting._measuring import UNMEASURED, Measuring, measured, measured_variable
 from fretting._points import Dimension, Draw, Parameters, Point, Table, dimensions, is_uncertain, points
 from fretting._progress import PointLine
-from fretting._sweep_folder import SweepFolder, with_files_in
+from fretting._sweep_folder import SweepFolder
 from fretting.errors import CaseError, OutOfMemoryError, RunError
 from fretting.history import History
 from fretting.simulation import ended
@@ -225,13 +224,7 @@ def _as_table(case: _case.CaseLike) -> Table:
         table = _case.plain(case, "")
         assert isinstance(table, dict)
         return table
-    text, name, folder = _case.text_of(case)
-    try:
-        table = tomllib.loads(text)
-    except tomllib.TOMLDecodeError:
-        _core.Case.from_toml(text, name, folder)  # the core says it with the place
-        raise
-    return with_files_in(table, folder)
+    return _case.table_from_anywhere(case)
 
 
 def _name_of(measure: Measure) -> str:

@@ -1,6 +1,7 @@
 """Uncertainty of first order, against closed forms and against samples."""
 
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -113,3 +114,41 @@ def test_wear_has_no_first_order() -> None:
     given = {"load[0].normal_force": fretting.Normal(10.0, 1.0)}
     with pytest.raises(ValueError, match=r"\[wear\]"):
         fretting.first_order({**RUBBED, "wear": {"coefficient": 1e-13}}, given, of="max_pressure")
+
+
+def in_a_folder(folder: Path) -> Path:
+    """Write a case that names a file beside it, and a stage with a hyphen in its name."""
+    rows = (np.arange(24) - 11.5) * 10e-6
+    np.savetxt(folder / "ball.txt", (rows[:, None] ** 2 + rows[None, :] ** 2) / 20e-3)
+    path = folder / "case.toml"
+    path.write_text(
+        "grid = { cells = [24, 24], size = [240e-6, 240e-6] }\nupper.rigid = true\n"
+        "lower.substrate = { young = 210e9, poisson = 0.3 }\n"
+        "profile.heights = { file = 'ball.txt', of = 'gap' }\n"
+        "[[load]]\nname = 'press-1'\nnormal_force = 4.0\nincrements = 1\n"
+    )
+    return path
+
+
+def test_a_case_file_keeps_its_folder_and_stages_their_names(tmp_path: Path) -> None:
+    """From another folder, by the name of the stage as by its number; what the gradient of the file says."""
+    path = in_a_folder(tmp_path)
+    assert Path.cwd().resolve() != tmp_path.resolve()
+    slope = fretting.gradient(path, of="max_pressure", by="load[0].normal_force")["max_pressure"]
+    for key in ("load[0].normal_force", "load.0.normal_force", "load.press-1.normal_force"):
+        found = fretting.first_order(path, {key: fretting.Normal(4.0, 0.1)}, of="max_pressure")
+        mean, deviation = found["max_pressure"].values
+        assert mean == slope["value"]
+        assert deviation == pytest.approx(0.1 * slope["load[0].normal_force"], rel=1e-12)
+
+
+def test_a_design_of_a_case_file_keeps_its_folder_and_stages_their_names(tmp_path: Path) -> None:
+    """The pressure grows with the load: the largest is that of the largest load, 6^(1/3) of that under 1 N by Hertz."""
+    pytest.importorskip("scipy")
+    key = "load.press-1.normal_force"
+    found = fretting.design(in_a_folder(tmp_path), by={key: (1.0, 6.0)}, maximize="max_pressure")
+    assert found.numbers[key] == pytest.approx(6.0, rel=1e-4)
+    modulus = 210e9 / (1.0 - 0.09)
+    pressure = (6.0 * 6.0 * modulus**2 / (math.pi**3 * 10e-3**2)) ** (1 / 3)
+    # on cells of an eighth of the contact radius
+    assert found.results["max_pressure"] == pytest.approx(pressure, rel=0.02)

@@ -23,7 +23,7 @@ const FIGURES: [[&str; 2]; 5] = [
 
 /// The page of a case.
 pub fn page(question: &Question) -> String {
-    let unit = |kind: &str| unit_of(question.units.as_ref(), kind, question.dimension);
+    let unit = |kind: Option<&str>| unit_of(question.units.as_ref(), kind?, question.dimension);
     let sliders: Vec<_> = question
         .sliders
         .iter()

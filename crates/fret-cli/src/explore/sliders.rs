@@ -3,6 +3,9 @@
 use serde::Serialize;
 use toml::{Table, Value};
 
+use crate::sweep::key::words_of;
+use crate::sweep::kinds::kind_of;
+
 /// How far a number can be dragged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Reach {
@@ -14,33 +17,33 @@ enum Reach {
     Between(f64, f64),
 }
 
-/// Last word of a key, kind of its unit, how far.
-type Row = (&'static str, &'static str, Reach);
+/// Last word of a key, how far.
+type Row = (&'static str, Reach);
 
 /// What can be dragged in a body, a profile, the friction, a stage.
 const ROWS: [Row; 22] = [
-    ("young", "pressure", Reach::Factor(5.0)),
-    ("poisson", "", Reach::Between(0.0, 0.5)),
-    ("thickness", "length", Reach::Factor(8.0)),
-    ("coefficient", "", Reach::Between(0.01, 1.5)),
-    ("max_shear", "pressure", Reach::Factor(8.0)),
-    ("radius", "length", Reach::Factor(4.0)),
-    ("radius_x", "length", Reach::Factor(4.0)),
-    ("radius_y", "length", Reach::Factor(4.0)),
-    ("half_width", "length", Reach::Factor(3.0)),
-    ("tip_radius", "length", Reach::Factor(4.0)),
-    ("half_angle", "", Reach::Between(20.0, 88.0)),
-    ("normal_force", "force", Reach::Factor(3.0)),
-    ("approach", "length", Reach::Factor(3.0)),
-    ("tangential_force", "force", Reach::Times(2.5)),
-    ("shift", "length", Reach::Times(3.0)),
-    ("actuator", "length", Reach::Times(3.0)),
-    ("bulk_stress", "pressure", Reach::Times(2.5)),
-    ("upper_bulk_stress", "pressure", Reach::Times(2.5)),
-    ("twist_moment", "force x length", Reach::Times(2.5)),
-    ("twist", "rad", Reach::Times(3.0)),
-    ("normal_stiffness", "pressure/length", Reach::Factor(10.0)),
-    ("shear_stiffness", "pressure/length", Reach::Factor(10.0)),
+    ("young", Reach::Factor(5.0)),
+    ("poisson", Reach::Between(0.0, 0.5)),
+    ("thickness", Reach::Factor(8.0)),
+    ("coefficient", Reach::Between(0.01, 1.5)),
+    ("max_shear", Reach::Factor(8.0)),
+    ("radius", Reach::Factor(4.0)),
+    ("radius_x", Reach::Factor(4.0)),
+    ("radius_y", Reach::Factor(4.0)),
+    ("half_width", Reach::Factor(3.0)),
+    ("tip_radius", Reach::Factor(4.0)),
+    ("half_angle", Reach::Between(20.0, 88.0)),
+    ("normal_force", Reach::Factor(3.0)),
+    ("approach", Reach::Factor(3.0)),
+    ("tangential_force", Reach::Times(2.5)),
+    ("shift", Reach::Times(3.0)),
+    ("actuator", Reach::Times(3.0)),
+    ("bulk_stress", Reach::Times(2.5)),
+    ("upper_bulk_stress", Reach::Times(2.5)),
+    ("twist_moment", Reach::Times(2.5)),
+    ("twist", Reach::Times(3.0)),
+    ("normal_stiffness", Reach::Factor(10.0)),
+    ("shear_stiffness", Reach::Factor(10.0)),
 ];
 
 /// Parts of a case that are looked through.
@@ -53,9 +56,9 @@ const MOST: usize = 24;
 pub struct Slider {
     /// Its dotted key.
     pub key: String,
-    /// Kind of its unit.
+    /// Kind of its unit, where it has one.
     #[serde(skip)]
-    pub kind: &'static str,
+    pub kind: Option<&'static str>,
     /// What the case has.
     pub value: f64,
     /// Where the slider ends on the left.
@@ -131,8 +134,8 @@ fn look(value: &Value, key: &str, found: &mut Vec<Slider>) {
 }
 
 fn slider(key: &str, value: f64) -> Option<Slider> {
-    let word = key.split('.').rfind(|part| part.parse::<usize>().is_err())?;
-    let (_, kind, reach) = ROWS.into_iter().find(|(name, ..)| *name == word)?;
+    let word = *words_of(key).last()?;
+    let (_, reach) = ROWS.into_iter().find(|(name, _)| *name == word)?;
     let [low, high] = match reach {
         _ if !value.is_finite() => return None,
         Reach::Factor(factor) if value > 0.0 => [value / factor, value * factor],
@@ -142,7 +145,7 @@ fn slider(key: &str, value: f64) -> Option<Slider> {
         Reach::Factor(_) | Reach::Times(_) => return None,
     };
     let logarithmic = matches!(reach, Reach::Factor(_));
-    Some(Slider { key: key.to_owned(), kind, value, low, high, logarithmic })
+    Some(Slider { key: key.to_owned(), kind: kind_of(key), value, low, high, logarithmic })
 }
 
 #[cfg(test)]

@@ -22,6 +22,11 @@ pub fn put(case: &mut Table, key: &str, value: &Value) -> Result<(), String> {
     }
 }
 
+/// Parts of a key that are no numbers of entries.
+pub fn words_of(key: &str) -> Vec<&str> {
+    key.split('.').filter(|part| part.parse::<usize>().is_err()).collect()
+}
+
 fn put_into(here: &mut Value, place: &str, key: &str, value: &Value) -> Result<(), String> {
     let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
     let entry = match here {

@@ -1,4 +1,4 @@
-//! Many cases: the written question of a sweep (`question`), what a key of an axis names (`key`), what a point came to
+//! Many cases: the written question of a sweep (`question`), what a key of an axis names (`key`) and the kind of its quantity (`kinds`), what a point came to
 //! (`answer`) and its numbers by name (`columns`), the open ones planned, with what they have in common (`planned`), the folder that keeps
 //! it (`folder`, its `record`); samples of uncertain keys (`drawn`) and what they say (`spread`).
 
@@ -7,6 +7,7 @@ pub mod columns;
 mod drawn;
 mod folder;
 pub mod key;
+pub mod kinds;
 mod planned;
 mod question;
 pub mod record;

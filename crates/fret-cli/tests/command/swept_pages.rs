@@ -96,3 +96,21 @@ fn a_folder_that_is_no_sweep_of_the_command_says_what_makes_one() {
     assert_eq!(answer.code, Some(1));
     assert!(answer.err.contains("regime_map"), "{}", answer.err);
 }
+
+/// Every control has its unit on the axes, by the table of the controls: the displacement of an actuator as that of the body.
+#[test]
+fn the_axis_of_an_actuator_has_its_unit() {
+    let bench = Bench::new("sweep-page-actuator");
+    let case = "units = { length = 'mm', force = 'N' }\ngrid = { cells = [16, 16], size = [0.3, 0.3] }\nupper.rigid = true\n\
+                lower.substrate = { young = 210e3, poisson = 0.3 }\nprofile.sphere.radius = 10.0\nfriction.coefficient = 0.3\n\
+                rig.tangential_stiffness = 1e4\n[[load]]\nnormal_force = 10.0\nincrements = 1\n\
+                [[load]]\nname = 'rub'\nactuator = [1e-4, 0.0]\nincrements = 2\n";
+    let sweep = "base = 'case.toml'\n[axes]\n'load.rub.actuator.0' = [1e-4, 2e-4, 3e-4]\n'rig.tangential_stiffness' = [1e4, 2e4]\n";
+    let answer =
+        bench.file("case.toml", case).file("pulled.toml", sweep).fret(&["sweep", "pulled.toml", "--quiet"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert_eq!(bench.fret(&["report", "results/pulled"]).code, Some(0));
+    let page = bench.text("results/pulled/report.html");
+    assert!(page.contains("actuator, rub = 3 · 10⁻⁴\u{a0}mm"), "{page}");
+    assert!(page.contains("\u{a0}N/mm"), "{page}");
+}

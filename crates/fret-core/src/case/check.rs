@@ -6,7 +6,7 @@ use super::beyond::beyond;
 use super::bodies::bodies;
 use super::conduction::conduction;
 use super::declared_units::declared_units;
-use super::definition::{Case, GridSize, Origin, way_to_slide};
+use super::definition::{Case, GridSize, Origin};
 use super::evolution::evolution;
 use super::file::{CaseFile, CellsFile, OutputFile, SizeFile};
 use super::friction::{friction, of_stages};
@@ -27,7 +27,7 @@ use super::substrates::bulk_and_tilt;
 use super::wearing::wear;
 use crate::document::{At, Mistake, Places};
 use crate::model::stage::Stage;
-use crate::model::{CoulombFriction, Dimension, Displacement};
+use crate::model::{CoulombFriction, Dimension, Displacement, Profile, Shape};
 use crate::units::Units;
 
 /// Cells along one side of the grid, at the least.
@@ -84,8 +84,9 @@ pub(super) fn case(
         && repeats(&mut judge, (&file.grid, cells, size), loading, profile.as_ref(), bodies.as_ref());
     bulk_and_tilt(&mut judge, &file.grid, loading, bodies.as_ref(), size);
     let mapped = friction.iter().chain(changes.iter().flatten().flatten()).any(CoulombFriction::is_map);
-    let has_arrays = mapped || profile.as_ref().is_some_and(|profile| !profile.heights.is_empty());
-    auto_without_arrays(&mut judge, &file.grid.size, has_arrays && !periodic);
+    if !periodic {
+        auto_of_what_is_given(&mut judge, &file.grid.size, mapped, profile.as_ref());
+    }
     let frictionless = laws.as_ref().is_some_and(|laws| laws.iter().all(|law| law.is_frictionless()));
     sliding_coatings(&mut judge, files, frictionless || laws.is_none(), stages.as_deref());
     let solver = file.solver.as_ref();
@@ -94,8 +95,7 @@ pub(super) fn case(
         let strongest = friction_evolution.as_ref().zip(friction.as_ref());
         let strongest = strongest.map(|(evolution, first)| evolution.strongest(first));
         let friction = (laws.as_slice(), strongest.as_ref());
-        let limit = (tolerance.unwrap_or(TOLERANCE), way_to_slide(periodic, bodies.as_ref()));
-        sliding(&mut judge, friction, &file.load, stages, limit);
+        sliding(&mut judge, friction, &file.load, stages, tolerance.unwrap_or(TOLERANCE));
     }
     let kinematics = kinematics(&mut judge, &Concerned { file: &file, loading });
     rolling(&mut judge, &file, loading, (kinematics, profile.as_ref(), laws.as_deref()));
@@ -268,15 +268,19 @@ fn size(judge: &mut Judge, given: &At<SizeFile>, cells: Option<[usize; 2]>) -> O
     }
 }
 
-/// Refuses a size left to the program where there are arrays over cells.
-fn auto_without_arrays(judge: &mut Judge, size: &At<SizeFile>, has_arrays: bool) {
-    if let (SizeFile::Auto(_), true) = (&size.value, has_arrays) {
-        judge.refuse::<()>(
-            size.span(),
-            "grid.size = \"auto\" with heights or a friction map: the size of their cells must be given",
-            "size = [x, y]",
-        );
-    }
+/// Refuses a size left to the program where there are arrays over cells, or a formula, of which no contact size is known beforehand.
+fn auto_of_what_is_given(judge: &mut Judge, size: &At<SizeFile>, is_mapped: bool, profile: Option<&Profile>) {
+    let SizeFile::Auto(_) = &size.value else { return };
+    let has_formula =
+        |profile: &Profile| profile.shapes.iter().any(|shape| matches!(shape, Shape::Formula(_)));
+    let why = if is_mapped || profile.is_some_and(|profile| !profile.heights.is_empty()) {
+        "heights or a friction map: the size of their cells must be given"
+    } else if profile.is_some_and(has_formula) {
+        "a formula: the size of its contact is not known beforehand"
+    } else {
+        return;
+    };
+    judge.refuse::<()>(size.span(), format!("grid.size = \"auto\" with {why}"), "size = [x, y]");
 }
 
 /// Whether cells are too long to compute with.

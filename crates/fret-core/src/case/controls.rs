@@ -12,7 +12,7 @@ use crate::model::controls::{ControlRow, FREEDOMS, Form, Kind};
 use crate::model::stage::{Path, StageControl};
 
 /// No load or motion is larger, in any unit: products of two of them, and sums of these, are finite.
-const LARGEST: f64 = 1e100;
+pub(super) const LARGEST: f64 = 1e100;
 
 /// What a stage prescribes, for each degree of freedom; what is refused is left out.
 pub(super) type Controls = [Option<StageControl>; FREEDOMS];
@@ -49,7 +49,7 @@ pub(super) fn controls(
     for Given { row, way, values, span } in &file.controls.0 {
         let key = way.name;
         if values.iter().flatten().any(|value| !(value.abs() <= LARGEST)) {
-            let value = if let [Some(value)] = values[..] { format!(" = {value}") } else { String::new() };
+            let value = if let [Some(value)] = values[..] { format!(" = {value:?}") } else { String::new() };
             judge.refuse::<()>(
                 span.clone(),
                 format!("{place}.{key}{value}: must be finite, 1e100 at the most"),

@@ -114,15 +114,6 @@ pub enum GridSize {
     Auto,
 }
 
-/// What helps where friction does not carry the tangential force, in a periodic case or not.
-pub(super) fn way_to_slide(periodic: bool, bodies: Option<&ContactPair>) -> &'static str {
-    if periodic && bodies.is_some_and(|bodies| uniform_response(bodies).is_none()) {
-        "periodic half-spaces have no shift that could be prescribed instead: stay below mu P"
-    } else {
-        "prescribe the shift to slide"
-    }
-}
-
 impl GridSize {
     /// The side lengths, where they are given.
     pub fn given(self) -> Option<[f64; 2]> {
@@ -195,11 +186,6 @@ impl Case {
         } else {
             "enlarge grid.size, or write size = \"auto\"; grid.beyond = \"no body\" where a body ends there"
         }
-    }
-
-    /// What helps where friction does not carry the tangential force.
-    pub(crate) fn way_to_slide(&self) -> &'static str {
-        way_to_slide(self.periodic, Some(&self.bodies))
     }
 
     /// Whether the contact rolls in any stage, or has rolled where the history starts.

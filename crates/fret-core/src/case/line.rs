@@ -41,7 +41,7 @@ pub(super) fn line(judge: &mut Judge, grid: &GridFile, loading: Loading<'_>, pro
         judge.refuse::<()>(
             grid.cells.span(),
             "profile: without an end along x, in a line contact along y",
-            "a cylinder with axis = \"y\" and a radius, a flat_punch, a rounded_punch, a cone (a wedge) or heights",
+            "a cylinder with axis = \"y\" and a radius, a flat_punch, a rounded_punch, a cone (a wedge), a formula of x or heights",
         );
     }
 }
@@ -62,6 +62,9 @@ fn of_a_surface(shape: &Shape) -> Option<(&'static str, &'static str)> {
         Shape::Pyramid { .. } => Some(("pyramid", "a cone, which is a wedge here")),
         Shape::RectangularPunch { .. } => Some(("rectangular_punch", "a flat_punch or a rounded_punch")),
         Shape::CrownedRoller { .. } => Some(("crowned_roller", cylinder)),
+        Shape::Formula(formula) if formula.depends_on(1) => {
+            Some(("formula of y", "an expression of x alone"))
+        }
         Shape::Wave { .. } => {
             Some(("wave", "a wave is periodic: cells = [n, 4], size = [x, y], periodic = true"))
         }

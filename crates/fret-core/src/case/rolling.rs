@@ -47,7 +47,12 @@ pub(super) fn rolling(
     let can_roll = |shape: &Shape| shape.curvatures().is_some() || matches!(shape, Shape::Wave { .. });
     if profile.is_some_and(|profile| !profile.shapes.iter().all(can_roll)) {
         let help = "sphere, ellipsoid, or a cylinder without a length";
-        roll.refuse(judge, loading, "of a profile that does not roll: it has an edge, a flat or a tip", help);
+        roll.refuse(
+            judge,
+            loading,
+            "of a profile that does not roll: it has an edge, a flat or a tip, or is a formula",
+            help,
+        );
     }
     beside(judge, loading, kinematics);
     steady(judge, loading, kinematics);

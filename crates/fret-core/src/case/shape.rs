@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::arrays::{self, Cells, Layout};
 use super::file::CaseFile;
+use super::formula::formula;
 use super::judge::Judge;
 use super::surface_file::{
     CrownedRollerFile, CylinderFile, EllipsoidFile, HeightsFile, IndenterFile, LENGTH, OfFile, ProfileFile,
@@ -109,7 +110,8 @@ struct Part<'a, 'b> {
 
 impl Part<'_, '_> {
     fn judge(&mut self, given: &At<ProfileFile>) {
-        let ProfileFile { sphere, ellipsoid, cylinder, wave, heights, .. } = &given.value;
+        let ProfileFile { sphere, ellipsoid, cylinder, wave, formula: by_formula, heights, .. } =
+            &given.value;
         if let Some(SphereFile { radius }) = sphere.as_deref() {
             let shape = Shape::Sphere { radius: radius.value };
             self.curved("sphere", shape, &[("radius", radius)]);
@@ -134,14 +136,20 @@ impl Part<'_, '_> {
                 );
             }
         }
+        if let Some(given) = by_formula {
+            let place = format!("{}.formula", self.place);
+            let moves = self.judge.moves && self.place != "lower.profile";
+            let judged = formula(self.judge, &place, given, self.cells, moves);
+            self.sum.shapes.extend(judged);
+        }
         if let Some(heights) = heights {
             let judged = self.heights(heights.span(), heights);
             self.sum.heights.extend(judged);
-        } else if self.sum.shapes.len() == self.before {
+        } else if self.sum.shapes.len() == self.before && by_formula.is_none() {
             self.judge.refuse::<()>(
                 given.span(),
                 format!("{}: empty", self.place),
-                "shapes are: sphere, ellipsoid, cylinder, rounded_punch, flat_punch, cone, sphero_cone, worn_sphere, pyramid, rectangular_punch, crowned_roller, wave, heights",
+                "shapes are: sphere, ellipsoid, cylinder, rounded_punch, flat_punch, cone, sphero_cone, worn_sphere, pyramid, rectangular_punch, crowned_roller, wave, formula, heights",
             );
         }
     }
@@ -149,7 +157,7 @@ impl Part<'_, '_> {
     /// Adds a paraboloid, whose radii are positive; in a body's own profile it may be a hollow.
     fn curved(&mut self, name: &str, shape: Shape, radii: &[(&str, &At<f64>)]) {
         let is_gap = self.place == "profile";
-        self.sum.shapes.push(shape);
+        self.sum.shapes.push(shape.clone());
         if matches!(shape, Shape::Cylinder { length: Some(_), .. }) || is_gap {
             for (key, radius) in radii.iter().filter(|(_, radius)| !LENGTH.holds(radius.value)) {
                 let message = format!("{}.{name}.{key} = {:?}: {}", self.place, radius.value, LENGTH.words);

@@ -289,6 +289,9 @@ fn automatic(file: &StageFile) -> usize {
     }
 }
 
+/// What helps where friction does not carry the tangential force.
+pub const WAY_TO_SLIDE: &str = "prescribe the shift to slide";
+
 /// Forces without equilibrium are refused before anything is computed, as far as the case fixes them: tangential ones that
 /// Coulomb's law, which is given for each stage, cannot carry, and normal ones that pull. Of friction that evolves nobody knows what it
 /// carries in a stage, but that it is at most what the `strongest` law does.
@@ -297,7 +300,7 @@ pub(super) fn sliding(
     (laws, strongest): (&[&CoulombFriction], Option<&CoulombFriction>),
     list: &At<Vec<At<StageFile>>>,
     stages: &[Stage],
-    (tolerance, way_out): (f64, &str),
+    tolerance: f64,
 ) {
     let friction: Vec<&CoulombFriction> = laws.iter().map(|law| strongest.unwrap_or(law)).collect();
     let mut worst: Vec<(f64, f64)> = vec![(0.0, f64::INFINITY); stages.len()];
@@ -343,7 +346,7 @@ pub(super) fn sliding(
                     "load[{index}] ({name}).{key}: the tangential force reaches {asked}{unit}, where friction carries at most mu P = {bound}{unit}"
                 ),
                 &format!(
-                    "a force above mu P has no equilibrium, and one of mu P slides no one knows how far; {way_out}"
+                    "a force above mu P has no equilibrium, and one of mu P slides no one knows how far; {WAY_TO_SLIDE}"
                 ),
             );
             return;

@@ -7,7 +7,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
 use super::side::Side;
 use super::topography::keys::TreatmentFile;
-use crate::document::{At, Range, Table};
+use crate::document::{At, Named, Range, Table};
 use crate::model::{Axis, Detrend, EvolutionDriver};
 
 /// A length of a shape.
@@ -49,6 +49,8 @@ pub(super) struct ProfileFile {
     pub crowned_roller: Option<At<CrownedRollerFile>>,
     /// A sinusoidal surface amplitude (1 - cos(2 pi x / Lx) cos(2 pi y / Ly)).
     pub wave: Option<At<WaveFile>>,
+    /// A formula: an expression of x and y.
+    pub formula: Option<At<FormulaFile>>,
     /// Measured or synthetic topography, one height per cell.
     pub heights: Option<At<HeightsFile>>,
 }
@@ -210,6 +212,19 @@ pub(super) struct WaveFile {
     /// Wavelength along y [length]. Default: constant along y.
     #[range(LENGTH)]
     pub wavelength_y: Option<f64>,
+}
+
+/// A surface by a formula.
+#[derive(Table, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct FormulaFile {
+    /// The gap [length], in a body's own profile the distance of its surface from the plane of first touch, as an expression of x and y
+    /// [length], counted from the middle of the grid, and of the parameters: "(x^2 + y^2)/(2*R)". Operators + - * / ^, parentheses, pi, and
+    /// the functions abs, sqrt, exp, ln, log10, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, min, max, hypot, mod. It may be
+    /// lowest anywhere: the gap is counted from where it touches first.
+    pub expression: At<String>,
+    /// Numbers that the expression names, each a finite number: { R = 10e-3 }.
+    pub parameters: Option<Named<f64>>,
 }
 
 /// Topography, one height per cell or a scan that is resampled: `file` or `values`.

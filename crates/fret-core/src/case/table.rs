@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::control_keys::{Column, columns};
+use super::controls::LARGEST;
 use super::judge::Judge;
 use super::stage_file::StageFile;
 use super::table_layout::{Layout, layout};
 use crate::document::At;
 use crate::numbers::{NoNumber, number};
-use crate::units::Heading;
-use crate::units::{Conversion, UnitError, conversion, is_unit, known_units};
+use crate::units::{Conversion, Heading, UnitError, conversion, is_unit, known_units};
 
 /// Rows of a table, at the most.
 const MOST_ROWS: usize = 1_000_000;
@@ -75,6 +75,11 @@ pub(super) fn table(judge: &mut Judge, place: &str, file: &StageFile, name: &At<
             let found = number(cell, decimal_comma)
                 .map(|value| column.conversion.of(value))
                 .and_then(|value| if value.is_finite() { Ok(value) } else { Err(NoNumber::NotFinite) });
+            if found.as_ref().is_ok_and(|value| value.abs() > LARGEST) {
+                let message =
+                    format!("line {line}, column {:?}: {cell:?}: must be 1e100 at the most", column.name);
+                return at.refuse(judge, &message, "");
+            }
             match (found, columns.get_mut(&column.control.name)) {
                 (Ok(value), Some(values)) => values.push(value),
                 (Ok(_), None) => {}

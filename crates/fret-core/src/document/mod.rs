@@ -3,6 +3,7 @@
 //! choice. No mechanics, and no relations between keys.
 
 mod at;
+mod expression;
 mod mistake;
 mod parser_words;
 mod range;
@@ -11,6 +12,7 @@ mod values;
 mod words;
 
 pub use at::At;
+pub use expression::{Expression, ExpressionError, is_free_name};
 pub use fret_table::Table;
 pub use mistake::Mistake;
 pub use parser_words::in_words;

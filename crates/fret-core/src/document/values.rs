@@ -173,11 +173,11 @@ impl<T: Read> Read for [T; 2] {
     }
 }
 
-/// A table of texts whose keys are its author's.
+/// A table of texts, or other values of one kind, whose keys are its author's.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Named(pub Vec<(At<String>, At<String>)>);
+pub struct Named<T = String>(pub Vec<(At<String>, At<T>)>);
 
-impl Read for Named {
+impl<T: Read> Read for Named<T> {
     const EXPECTED: &'static str = "a table";
 
     fn fits(value: &Written<'_>) -> bool {
@@ -189,15 +189,15 @@ impl Read for Named {
             return reader.wrong(value, Self::EXPECTED, None);
         };
         let mut all = Vec::new();
-        for (key, text) in table {
-            let text = At::read(text, reader).map_err(|_| None)?;
-            all.push((At::new(key.get_ref().clone().into_owned(), key.span()), text));
+        for (key, value) in table {
+            let value = At::read(value, reader).map_err(|_| None)?;
+            all.push((At::new(key.get_ref().clone().into_owned(), key.span()), value));
         }
         Ok(Self(all))
     }
 }
 
-impl JsonSchema for Named {
+impl<T: JsonSchema> JsonSchema for Named<T> {
     fn inline_schema() -> bool {
         true
     }
@@ -207,6 +207,6 @@ impl JsonSchema for Named {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        BTreeMap::<String, String>::json_schema(generator)
+        BTreeMap::<String, T>::json_schema(generator)
     }
 }

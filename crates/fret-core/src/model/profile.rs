@@ -53,8 +53,27 @@ impl Profile {
         self.shapes.iter().map(|shape| shape.gap_at(x, y)).sum()
     }
 
+    /// Whether it may be lowest anywhere, so that it is counted from where it touches first: with heights on a grid of `cells`, or a formula.
+    fn is_lowest_anywhere(&self, cells: [usize; 2]) -> bool {
+        let by_formula = self.shapes.iter().any(|shape| matches!(shape, Shape::Formula(_)));
+        by_formula || self.heights.iter().any(|heights| heights.cells() == cells)
+    }
+
+    /// A cell centre at which a formula has no finite value, or the middle of the grid, where there is one.
+    pub fn undefined_on(&self, grid: &SurfaceGrid) -> Option<[f64; 2]> {
+        self.shapes.iter().find_map(|shape| match shape {
+            Shape::Formula(formula) => formula.undefined_on(grid),
+            _ => None,
+        })
+    }
+
+    /// Gap of the shapes in the middle of the grid [length], which no cell need lie in; of heights there is none between cells.
+    fn middle(&self) -> f64 {
+        if self.heights.is_empty() { self.gap_of_shapes_at(0.0, 0.0) } else { f64::INFINITY }
+    }
+
     /// Undeformed gap at the cell centres [length], shape `(nx, ny)`. With heights it is counted from the cell that touches
-    /// first. Where a body has ended it is [`BEYOND_THE_BODY`] diagonals of the grid.
+    /// first, with a formula from the lowest value at a cell or in the middle of the grid. Where a body has ended it is [`BEYOND_THE_BODY`] diagonals of the grid.
     ///
     /// Heights of another shape than the grid's are left out; a checked case has none.
     pub fn gap(&self, grid: &SurfaceGrid) -> Array2<f64> {
@@ -73,8 +92,8 @@ impl Profile {
         for heights in fitting() {
             gap += heights.depths();
         }
-        if fitting().next().is_some() {
-            let first = gap.iter().copied().fold(f64::INFINITY, f64::min);
+        if self.is_lowest_anywhere(cells) {
+            let first = gap.iter().copied().fold(self.middle(), f64::min);
             if first.is_finite() {
                 gap -= first;
             }
@@ -93,8 +112,8 @@ impl Profile {
         let mut gap = Array2::zeros(grid.cells());
         let [width, depth] = grid.size();
         let beyond = BEYOND_THE_BODY * width.hypot(depth);
-        let has_heights = self.heights.iter().any(|heights| heights.cells() == grid.cells());
-        let first = if has_heights { self.first_touch(grid) } else { 0.0 };
+        let is_counted = self.is_lowest_anywhere(grid.cells());
+        let first = if is_counted { self.first_touch(grid) } else { 0.0 };
         let [of_upper, heights_of_upper] = self.of_upper;
         let [x, y] = [0, 1].map(|axis| places(grid, axis, cells[axis], repeats));
         let values = gap.as_slice_mut().unwrap_or_default();
@@ -123,7 +142,7 @@ impl Profile {
                 }
             }
         }
-        if has_heights && first.is_finite() {
+        if is_counted && first.is_finite() {
             gap -= first;
         }
         gap.mapv_inplace(|gap| gap.min(beyond));
@@ -133,14 +152,14 @@ impl Profile {
     /// The undeformed gap where the contact has rolled by `cells` along each axis: paraboloids have gone along, waves and heights, which belong to
     /// places of the surfaces, stay.
     pub fn gap_rolled(&self, grid: &SurfaceGrid, cells: [f64; 2]) -> Array2<f64> {
-        let (rolling, fixed) = self.shapes.iter().partition(|shape| shape.curvatures().is_some());
+        let (rolling, fixed) = self.shapes.iter().cloned().partition(|shape| shape.curvatures().is_some());
         let (rolling, fixed): (Vec<Shape>, Vec<Shape>) = (rolling, fixed);
         let of_upper = [rolling.len(), 0];
         let shapes = rolling.into_iter().chain(fixed).collect();
         Self { shapes, heights: self.heights.clone(), of_upper }.gap_with_upper_at(grid, cells, false)
     }
 
-    /// Lowest sum of shapes and heights of a cell [length].
+    /// Lowest sum of shapes and heights of a cell, or in the middle [length].
     fn first_touch(&self, grid: &SurfaceGrid) -> f64 {
         let mut sum = Array2::from_shape_fn(grid.cells(), |(i, j)| {
             self.gap_of_shapes_at(grid.centre(0, i), grid.centre(1, j))
@@ -148,7 +167,7 @@ impl Profile {
         for heights in self.heights.iter().filter(|heights| heights.cells() == grid.cells()) {
             sum += heights.depths();
         }
-        sum.into_iter().fold(f64::INFINITY, f64::min)
+        sum.into_iter().fold(self.middle(), f64::min)
     }
 
     /// Whether the gap is the same everywhere along an axis (0: x, 1: y).
@@ -195,8 +214,11 @@ mod tests {
             Heights::new("rough", rough, Detrend::None).unwrap()
         };
         let [ball, bed] = [Shape::Sphere { radius: 2.0 }, Shape::Sphere { radius: -5.0 }];
-        let profile =
-            Profile { shapes: vec![ball, bed], heights: vec![heights(1), heights(5)], of_upper: [1, 1] };
+        let profile = Profile {
+            shapes: vec![ball.clone(), bed.clone()],
+            heights: vec![heights(1), heights(5)],
+            of_upper: [1, 1],
+        };
         assert_eq!(profile.gap_with_upper_at(&grid, [0.0; 2], false), profile.gap(&grid));
         let of = |shape: Shape, heights: Heights| Profile {
             shapes: vec![shape],

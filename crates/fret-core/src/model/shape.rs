@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::formula::Formula;
 use crate::document::Table;
 
 /// Why a profile was refused.
@@ -46,7 +47,7 @@ pub enum Axis {
 }
 
 /// One part of the undeformed gap. A negative radius of a sphere, an ellipsoid or a cylinder is that of a hollow.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
     /// Paraboloid `r^2 / (2 R)`, the half-space model's own order of a sphere.
@@ -136,6 +137,8 @@ pub enum Shape {
         /// Wavelengths along x and y [length]; `None`: straight along that axis.
         wavelengths: [Option<f64>; 2],
     },
+    /// An expression of x and y, lowest anywhere.
+    Formula(Formula),
 }
 
 impl Shape {
@@ -196,6 +199,7 @@ impl Shape {
                 positive("wavelength_x", x.unwrap_or(amplitude))?;
                 positive("wavelength_y", y.unwrap_or(amplitude))?;
             }
+            Self::Formula(_) => {}
         }
         Ok(self)
     }
@@ -268,6 +272,7 @@ impl Shape {
                 };
                 amplitude * (1.0 - wave(x, wavelengths[0]) * wave(y, wavelengths[1]))
             }
+            Self::Formula(ref formula) => formula.at(x, y),
         }
     }
 
@@ -275,38 +280,38 @@ impl Shape {
     /// none that the gap depends on smoothly.
     pub fn gap_change_at(&self, by: &str, x: f64, y: f64) -> Option<f64> {
         let gap = self.gap_at(x, y);
-        match (*self, by) {
-            (Self::Sphere { radius } | Self::Cylinder { radius, .. }, "radius") => {
+        match (self, by) {
+            (&Self::Sphere { radius } | &Self::Cylinder { radius, .. }, "radius") => {
                 Some(if gap.is_finite() { -gap / radius } else { 0.0 })
             }
-            (Self::Ellipsoid { radius_x, .. }, "radius_x") => Some(-x * x / (2.0 * radius_x * radius_x)),
-            (Self::Ellipsoid { radius_y, .. }, "radius_y") => Some(-y * y / (2.0 * radius_y * radius_y)),
-            (Self::RoundedPunch { flat_radius, edge_radius }, "flat_radius") => {
+            (&Self::Ellipsoid { radius_x, .. }, "radius_x") => Some(-x * x / (2.0 * radius_x * radius_x)),
+            (&Self::Ellipsoid { radius_y, .. }, "radius_y") => Some(-y * y / (2.0 * radius_y * radius_y)),
+            (&Self::RoundedPunch { flat_radius, edge_radius }, "flat_radius") => {
                 Some(-(x.hypot(y) - flat_radius).max(0.0) / edge_radius)
             }
-            (Self::RoundedPunch { edge_radius, .. }, "edge_radius") => Some(-gap / edge_radius),
-            (Self::Cone { slope }, "slope") => Some(gap / slope),
-            (Self::Wave { amplitude, .. }, "amplitude") => Some(gap / amplitude),
+            (&Self::RoundedPunch { edge_radius, .. }, "edge_radius") => Some(-gap / edge_radius),
+            (&Self::Cone { slope }, "slope") => Some(gap / slope),
+            (&Self::Wave { amplitude, .. }, "amplitude") => Some(gap / amplitude),
             _ => None,
         }
     }
 
     /// One of the numbers that make the shape, called as in a case.
     pub fn number(&self, name: &str) -> Option<f64> {
-        match (*self, name) {
+        match (self, name) {
             (
-                Self::Sphere { radius } | Self::Cylinder { radius, .. } | Self::FlatPunch { radius },
+                &Self::Sphere { radius } | &Self::Cylinder { radius, .. } | &Self::FlatPunch { radius },
                 "radius",
             ) => Some(radius),
-            (Self::Ellipsoid { radius_x, .. }, "radius_x") => Some(radius_x),
-            (Self::Ellipsoid { radius_y, .. }, "radius_y") => Some(radius_y),
-            (Self::RoundedPunch { flat_radius, .. }, "flat_radius") => Some(flat_radius),
-            (Self::RoundedPunch { edge_radius, .. }, "edge_radius") => Some(edge_radius),
-            (Self::Cone { slope }, "slope") => Some(slope),
-            (Self::Wave { amplitude, .. }, "amplitude") => Some(amplitude),
-            (Self::Wave { wavelengths, .. }, "wavelength_x") => wavelengths[0],
-            (Self::Wave { wavelengths, .. }, "wavelength_y") => wavelengths[1],
-            (Self::Cylinder { length, .. }, "length") => length,
+            (&Self::Ellipsoid { radius_x, .. }, "radius_x") => Some(radius_x),
+            (&Self::Ellipsoid { radius_y, .. }, "radius_y") => Some(radius_y),
+            (&Self::RoundedPunch { flat_radius, .. }, "flat_radius") => Some(flat_radius),
+            (&Self::RoundedPunch { edge_radius, .. }, "edge_radius") => Some(edge_radius),
+            (&Self::Cone { slope }, "slope") => Some(slope),
+            (&Self::Wave { amplitude, .. }, "amplitude") => Some(amplitude),
+            (&Self::Wave { wavelengths, .. }, "wavelength_x") => wavelengths[0],
+            (&Self::Wave { wavelengths, .. }, "wavelength_y") => wavelengths[1],
+            (&Self::Cylinder { length, .. }, "length") => length,
             _ => None,
         }
     }
@@ -326,6 +331,7 @@ impl Shape {
             Self::RectangularPunch { .. } => "rectangular_punch",
             Self::CrownedRoller { .. } => "crowned_roller",
             Self::Wave { .. } => "wave",
+            Self::Formula(_) => "formula",
         }
     }
 
@@ -347,6 +353,7 @@ impl Shape {
         match self {
             Self::Cylinder { axis: own, length: None, .. } => *own == [Axis::X, Axis::Y][axis],
             Self::Wave { wavelengths, .. } => wavelengths[axis].is_none(),
+            Self::Formula(formula) => !formula.depends_on(axis),
             _ => false,
         }
     }

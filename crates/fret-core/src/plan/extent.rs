@@ -251,7 +251,7 @@ fn first_guess(case: &Case) -> Option<[f64; 2]> {
         return first_guess_of_line(case, x, compliance).map(|half| [half; 2]);
     }
     let round = (x > 0.0 && y > 0.0).then(|| Shape::Sphere { radius: (x * y).sqrt().recip() });
-    let others = case.profile.shapes.iter().copied().filter(|shape| shape.curvatures().is_none());
+    let others = case.profile.shapes.iter().filter(|shape| shape.curvatures().is_none()).cloned();
     let shapes: Vec<Shape> = round.into_iter().chain(others).collect();
     let under = |load: Control| {
         let guesses = shapes.iter().map(|shape| half_widths(shape, load, compliance));
@@ -271,11 +271,11 @@ fn first_guess_of_line(case: &Case, curvature: f64, compliance: f64) -> Option<f
         Control::Force(force) => (4.0 * force * radius * compliance / PI).sqrt(),
         Control::Motion(approach) | Control::FarEnd(approach) => (radius * approach).sqrt(),
     };
-    let half_width = |shape: &Shape, load: Control| match (*shape, load) {
-        (Shape::RoundedPunch { flat_radius, edge_radius }, _) => flat_radius + hertz(edge_radius, load),
-        (Shape::FlatPunch { radius }, _) => radius,
-        (Shape::Cone { slope }, Control::Force(force)) => 2.0 * force * compliance / slope,
-        (Shape::Cone { slope }, Control::Motion(approach) | Control::FarEnd(approach)) => approach / slope,
+    let half_width = |shape: &Shape, load: Control| match (shape, load) {
+        (&Shape::RoundedPunch { flat_radius, edge_radius }, _) => flat_radius + hertz(edge_radius, load),
+        (&Shape::FlatPunch { radius }, _) => radius,
+        (&Shape::Cone { slope }, Control::Force(force)) => 2.0 * force * compliance / slope,
+        (&Shape::Cone { slope }, Control::Motion(approach) | Control::FarEnd(approach)) => approach / slope,
         _ => f64::INFINITY,
     };
     let under = |load: Control| {
@@ -336,9 +336,10 @@ fn half_widths(shape: &Shape, load: Control, compliance: f64) -> [f64; 2] {
                 Axis::Y => [across, along],
             }
         }
-        Shape::Ellipsoid { .. } | Shape::Cylinder { length: None, .. } | Shape::Wave { .. } => {
-            [f64::INFINITY; 2]
-        }
+        Shape::Ellipsoid { .. }
+        | Shape::Cylinder { length: None, .. }
+        | Shape::Wave { .. }
+        | Shape::Formula(_) => [f64::INFINITY; 2],
     }
 }
 

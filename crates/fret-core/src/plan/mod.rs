@@ -152,6 +152,13 @@ impl Plan {
                 format!("grid.size = {size:?}: no cell centre lies on the body, which ends between them");
             return Err(case.refuse_size(message, "more cells, or a smaller grid"));
         }
+        if let Some([x, y]) = case.profile.undefined_on(&grid) {
+            let message = format!(
+                "grid.cells = {:?}: the formula of the profile has no finite value at x = {x:?}, y = {y:?}",
+                case.cells
+            );
+            return Err(case.refuse_size(message, "other cells, or a formula with a value everywhere"));
+        }
         if !case.periodic && has_unseen_film(&case, &grid) {
             let message = format!(
                 "grid.cells = {:?}: a nearly incompressible film on a stiff base is thinner than a fifth of a cell; it moves \

@@ -1,7 +1,7 @@
 //! Why a run ends without its answer.
 
 use super::checkpoint::Place;
-use crate::case::{Case, apart};
+use crate::case::{Case, WAY_TO_SLIDE, apart};
 use crate::machine::memory::MemoryError;
 use crate::solver::{Carried, SolveError};
 use crate::units::Units;
@@ -231,7 +231,7 @@ pub fn run_error(error: &SolveError, increment: usize, case: &Case, stage: usize
             advice: way_to_converge(case.friction.largest()),
         },
         SolveError::AboveSliding { asked, bound, by } => {
-            let (unit, advice) = (unit("force"), case.way_to_slide());
+            let (unit, advice) = (unit("force"), WAY_TO_SLIDE);
             RunError::AboveSliding { increment, stage, asked, bound, by, unit, advice }
         }
         SolveError::AboveFullSlip { fraction } => RunError::AboveFullSlip { increment, stage, fraction },

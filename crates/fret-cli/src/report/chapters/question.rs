@@ -112,6 +112,13 @@ fn described(view: &Overview<'_>, value: &Value) -> String {
                     Value::Number(slope) if matches!(name.as_str(), "slope" | "sides") => {
                         format!("{name} {}", slope.as_f64().map_or_else(String::new, given))
                     }
+                    // Of the numbers of a formula its author knows the units.
+                    Value::Object(parameters) if name == "parameters" => {
+                        let own = |(name, value): (&String, &Value)| {
+                            format!("{name} = {}", value.as_f64().map_or_else(String::new, given))
+                        };
+                        parameters.iter().map(own).collect::<Vec<_>>().join(", ")
+                    }
                     _ => format!("{} {}", name.replace('_', " "), described(view, value)),
                 })
                 .collect();

@@ -12,28 +12,10 @@ use crate::failure::Failure;
 use crate::figures::unit_of;
 use crate::report::html::{given, number};
 use crate::sweep::columns::{SummaryColumn, columns};
+use crate::sweep::key::words_of;
+use crate::sweep::kinds::kind_of;
 use crate::sweep::record::PointOfSweep;
 use crate::sweep::{Answer, Kept, POINTS, RECORD, SpreadRecord, SweepRecord, UNCERTAINTY};
-
-/// Ends of keys that are known to have a unit.
-const KINDS: [(&str, &str); 16] = [
-    ("shift", "length"),
-    ("approach", "length"),
-    ("radius", "length"),
-    ("thickness", "length"),
-    ("size", "length"),
-    ("half_width", "length"),
-    ("critical_distance", "length"),
-    ("normal_force", "force"),
-    ("tangential_force", "force"),
-    ("twist_moment", "force x length"),
-    ("young", "pressure"),
-    ("max_shear", "pressure"),
-    ("bulk_stress", "pressure"),
-    ("upper_bulk_stress", "pressure"),
-    ("yield_strength", "pressure"),
-    ("residual_stress", "pressure"),
-];
 
 /// A sweep.
 pub struct View {
@@ -135,9 +117,7 @@ impl View {
         if words_of(key).contains(&"phase") {
             return Some("°".to_owned());
         }
-        let end = words_of(key).last().copied()?;
-        let (_, kind) = KINDS.iter().find(|(known, _)| *known == end)?;
-        self.unit(kind)
+        self.unit(kind_of(key)?)
     }
 
     /// The unit of a kind of quantity, where the cases declare units.
@@ -190,11 +170,6 @@ impl View {
 /// A value that is no number, as it stands in a file.
 fn plain(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
-}
-
-/// Parts of a key that are no numbers of entries.
-fn words_of(key: &str) -> Vec<&str> {
-    key.split('.').filter(|part| part.parse::<usize>().is_err()).collect()
 }
 
 /// Words of keys that are called otherwise.
