@@ -26,8 +26,8 @@ use super::{Block, ConvolutionError, Engine, Kernel, Mirrors, SingleProduct, Wor
 /// # Ok::<(), fretting_fft::ConvolutionError>(())
 /// ```
 pub struct Convolution {
-    terms: Terms,
-    product: PlannedProduct,
+    pub(super) terms: Terms,
+    pub(super) product: PlannedProduct,
 }
 
 impl Convolution {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::lanes::{InstructionSet, LaneProduct};
+use super::lanes::{AlignedNumbers, InstructionSet, LaneProduct};
 use super::lengths::is_good_length;
 use super::line_product::LineProduct;
 use super::mirrors::{in_front, unfolded};
@@ -112,6 +112,29 @@ impl PlannedProduct {
             Self::Lines(product) => product.apply(workspace.lines(product.scratch_len()), input, output),
             Self::Unfolded(product, terms) => unfolded_product(product, terms, workspace, input, output),
         }
+    }
+
+    /// Cross spectra of no fields; `None` where there are none: line by line, and where the scene repeats.
+    pub fn cross_spectra(&self) -> Option<AlignedNumbers<f64>> {
+        if let Self::Lanes(product) = self { product.cross_spectra() } else { None }
+    }
+
+    /// Adds the cross spectra of `input` with `output`.
+    pub fn add_cross_spectra(
+        &self,
+        workspace: &mut Workspace,
+        fields: (&[&[f64]], &[&[f64]]),
+        sums: &mut AlignedNumbers<f64>,
+    ) {
+        if let Self::Lanes(product) = self {
+            let count = product.cross_len(rayon::current_num_threads());
+            product.add_cross_spectra(workspace.lanes(count), fields, sums);
+        }
+    }
+
+    /// The scalar product of cross spectra with the kernels.
+    pub fn contracted(&self, sums: &AlignedNumbers<f64>) -> f64 {
+        if let Self::Lanes(product) = self { product.contracted(sums) } else { 0.0 }
     }
 
     /// This product, of `terms`, in single precision; `None` where it goes line by line.

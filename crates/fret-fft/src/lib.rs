@@ -5,6 +5,7 @@
 
 mod block;
 mod convolution;
+mod cross_spectra;
 mod engine;
 mod fork;
 mod fourier;
@@ -27,6 +28,7 @@ mod workspace;
 
 pub use block::{Block, ConvolutionError, Kernel, Symbol};
 pub use convolution::Convolution;
+pub use cross_spectra::CrossSpectra;
 pub use engine::Engine;
 pub use fork::join;
 pub use inverse_table::inverse_table;

@@ -62,7 +62,7 @@ impl Terms {
     }
 
     /// Panics with the reason when the fields passed to a product are not those it was made for.
-    pub fn check_fields(&self, input: &[&[f64]], output: &[&mut [f64]]) {
+    pub fn check_fields(&self, input: &[&[f64]], output: &[impl AsRef<[f64]>]) {
         assert!(
             input.len() == self.inputs && output.len() == self.outputs,
             "product of {} inputs and {} outputs called with {} and {}",
@@ -73,7 +73,8 @@ impl Terms {
         );
         let cells = self.cells();
         let [nx, ny] = self.shape;
-        for found in input.iter().map(|field| field.len()).chain(output.iter().map(|field| field.len())) {
+        let outputs = output.iter().map(|field| field.as_ref().len());
+        for found in input.iter().map(|field| field.len()).chain(outputs) {
             assert!(found == cells, "field of {found} values passed to a product on a {nx} x {ny} grid");
         }
     }

@@ -4,6 +4,7 @@
 mod cell_response;
 #[cfg(test)]
 mod conformance;
+mod cross_spectra;
 mod direct;
 mod operator;
 pub(crate) mod product;
@@ -11,6 +12,7 @@ mod spectral;
 mod surface_response;
 
 pub use cell_response::CellResponse;
+pub use cross_spectra::CrossSpectra;
 pub use direct::DirectCompliance;
 pub use operator::{OperatorSet, SelfInfluence, SinglePrecisionOperator, SurfaceCompliance};
 pub use product::SharedWorkspace;

@@ -11,16 +11,16 @@ use fret_fft::{Block, Convolution, ConvolutionError, Kernel, PeriodicProduct, Si
 pub struct SpectralCompliance {
     shape: [usize; 2],
     self_influence: SelfInfluence,
-    normal: Option<Product>,
-    tangential: Option<Product>,
-    full: Option<Product>,
+    pub(super) normal: Option<Product>,
+    pub(super) tangential: Option<Product>,
+    pub(super) full: Option<Product>,
     normal_from_all: Option<Product>,
     /// The same in single precision, made when first asked for.
     single: Singles,
     /// Where all of them work.
-    workspace: SharedWorkspace,
+    pub(super) workspace: SharedWorkspace,
     /// The one axis along which shear acts.
-    shear_axis: Option<usize>,
+    pub(super) shear_axis: Option<usize>,
     /// Applications so far.
     pub applications: usize,
 }

@@ -4,19 +4,21 @@
 use std::ops::ControlFlow;
 
 use super::change::Change;
+use super::constants::Constants;
 use super::contact::Drive;
 use super::error::SensitivityError;
 use super::events::{NearEvents, near_events};
-use super::forward::{change_of_gap, response_by};
+use super::forward::change_of_gap;
 use super::increment::{ENOUGH, Increment};
-use super::linearised::{Fields, Operators, displacements};
+use super::linearised::Operators;
 use super::loads::Load;
 use super::objective::Row;
 use super::parameter::Parameter;
 use super::replay::Replay;
 use super::scene::{Scene, Snapshot};
 use super::solved::Solved;
-use crate::compliance::{SpectralCompliance, SurfaceCompliance};
+use super::work::Work;
+use crate::compliance::SurfaceCompliance;
 use crate::fields::{add_scaled, dot};
 use crate::model::controls::FREEDOMS;
 use crate::run::{PairCompliance, RunError};
@@ -64,19 +66,19 @@ struct Gathered {
     /// Coefficient and strength, and numbers of the controls, stage by stage.
     friction: Vec<[f64; 2]>,
     controls: Vec<[f64; FREEDOMS]>,
-    /// The numbers of bodies, in the order of the numbers.
-    bodies: Vec<f64>,
+    /// The largest product of a right side and of tractions so far.
+    largest: f64,
 }
 
 impl Gathered {
-    fn nothing(cells: usize, stages: usize, numbers: usize) -> Self {
+    fn nothing(cells: usize, stages: usize) -> Self {
         Self {
             changes: [(); 3].map(|()| Change::none(cells)),
             gap: vec![0.0; cells],
             rig: [0.0; 3],
             friction: vec![[0.0; 2]; stages],
             controls: vec![[0.0; FREEDOMS]; stages],
-            bodies: vec![0.0; numbers],
+            largest: 0.0,
         }
     }
 
@@ -88,10 +90,10 @@ impl Gathered {
         }
     }
 
-    /// Its derivative by a number.
-    fn by(&self, parameter: &Parameter, number: usize, scene: &Scene<'_>) -> f64 {
+    /// Its derivative by a number that is no constant of a body.
+    fn by(&self, parameter: &Parameter, scene: &Scene<'_>) -> f64 {
         let case = &scene.plan.case;
-        let mut sum = self.bodies[number];
+        let mut sum = 0.0;
         if parameter.is_of_shape() {
             sum += dot(&self.gap, &change_of_gap(parameter, scene));
         }
@@ -119,14 +121,10 @@ pub(super) fn backward(
     parameters: &[Parameter],
     targets: &[Target],
     mut visit: impl FnMut(&Snapshot) -> ControlFlow<()>,
-) -> Result<(Vec<Vec<f64>>, Option<NearEvents>), SensitivityError> {
+) -> Result<(Vec<Vec<f64>>, Option<NearEvents>, Work), SensitivityError> {
     let (cells, stages) = (scene.region.len(), scene.plan.case.stages.len());
-    let mut gathered: Vec<Gathered> =
-        targets.iter().map(|_| Gathered::nothing(cells, stages, parameters.len())).collect();
-    let mut responses = parameters
-        .iter()
-        .map(|parameter| response_by(scene, parameter))
-        .collect::<Result<Vec<Option<SpectralCompliance>>, _>>()?;
+    let mut gathered: Vec<Gathered> = targets.iter().map(|_| Gathered::nothing(cells, stages)).collect();
+    let mut constants = Constants::new(scene, parameters, targets.len())?;
     let mut most: Option<NearEvents> = None;
     for number in (0..steps.len()).rev() {
         let (load, now) = &past.increments[number];
@@ -151,14 +149,9 @@ pub(super) fn backward(
             }
             continue;
         }
-        let by_response: Vec<Option<Fields>> = responses
-            .iter_mut()
-            .map(|change| {
-                change.as_mut().map(|change| displacements(change, scene.is_frictional(), &now.tractions))
-            })
-            .collect();
+        constants.begin(&now.tractions);
         let mut equations = increment.equations(&mut past.operators);
-        for (gathered, target) in gathered.iter_mut().zip(targets) {
+        for (objective, (gathered, target)) in gathered.iter_mut().zip(targets).enumerate() {
             let [after, before, former] = &mut gathered.changes;
             let after = std::mem::replace(after, Change::none(cells));
             if after.is_none() {
@@ -167,7 +160,13 @@ pub(super) fn backward(
             }
             let mut drive = Drive::none(cells);
             let numbers = &mut gathered.controls[load.stage];
-            let found = increment.transposed(&mut equations, after, [before, former], (&mut drive, numbers));
+            let found = increment.transposed(
+                &mut equations,
+                after,
+                [before, former],
+                (&mut drive, numbers),
+                &mut gathered.largest,
+            );
             found.map_err(|reached| SensitivityError::NotSolved {
                 increment: number,
                 of: format!("of {}", target.of),
@@ -181,11 +180,7 @@ pub(super) fn backward(
             for (sum, by) in gathered.rig.iter_mut().zip(drive.rig) {
                 *sum += by;
             }
-            for (sum, by) in gathered.bodies.iter_mut().zip(&by_response) {
-                if let Some(by) = by {
-                    *sum += by.iter().zip(&drive.response).map(|(by, of)| dot(by, of)).sum::<f64>();
-                }
-            }
+            constants.take(objective, &now.tractions, &drive.response);
             gathered.changes.rotate_left(1);
         }
     }
@@ -194,12 +189,11 @@ pub(super) fn backward(
         add_scaled(&mut gathered.gap, 1.0, &start.gap);
         add_scaled(&mut gathered.gap, 1.0, &earlier.gap);
     }
-    let by = |gathered: &Gathered| {
-        parameters
-            .iter()
-            .enumerate()
-            .map(|(number, parameter)| gathered.by(parameter, number, scene))
-            .collect()
+    let by = |(objective, gathered): (usize, &Gathered)| {
+        let of =
+            |(number, parameter)| gathered.by(parameter, scene) + constants.derivative(objective, number);
+        parameters.iter().enumerate().map(of).collect()
     };
-    Ok((gathered.iter().map(by).collect(), most))
+    let work = Work::of(&past.operators, constants.applications());
+    Ok((gathered.iter().enumerate().map(by).collect(), most, work))
 }

@@ -15,6 +15,7 @@ use super::parameter::Parameter;
 use super::replay::{Replay, zones};
 use super::scene::{Scene, Snapshot, field};
 use super::solved::Solved;
+use super::work::Work;
 use crate::compliance::{SpectralCompliance, SurfaceCompliance};
 use crate::model::controls::FREEDOMS;
 use crate::run::{PairCompliance, RunError};
@@ -71,7 +72,7 @@ pub(super) fn forward(
     parameters: &[Parameter],
     steps: &[Snapshot],
     mut visit: impl FnMut((&Snapshot, &Solved), &[&Change]) -> ControlFlow<()>,
-) -> Result<Option<NearEvents>, SensitivityError> {
+) -> Result<(Option<NearEvents>, Work), SensitivityError> {
     let compliance = PairCompliance::of(scene.plan);
     let mut operators = scene.operators(&compliance.response, compliance.table.as_ref())?;
     let mut courses = Vec::with_capacity(parameters.len());
@@ -145,7 +146,9 @@ pub(super) fn forward(
             return Err(RunError::Interrupted { increment: number }.into());
         }
     }
-    Ok(most)
+    let responses = courses.iter().filter_map(|course| course.response.as_ref());
+    let of_constants = responses.map(|response| response.applications).sum();
+    Ok((most, Work::of(&operators, of_constants)))
 }
 
 impl Course<'_> {

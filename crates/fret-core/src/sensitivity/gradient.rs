@@ -11,6 +11,7 @@ use super::objective::{Objective, Row, value_of};
 use super::parameter::Parameter;
 use super::refusals::{check, check_history, check_request};
 use super::scene::{Scene, Snapshot};
+use super::work::Work;
 use crate::history::{CycleRecord, KeptFields, StepRecord};
 use crate::machine::memory;
 use crate::model::MirroredState;
@@ -64,6 +65,8 @@ pub struct Sensitivities {
     pub near_events: Option<NearEvents>,
     /// Which way they were found.
     pub direction: Direction,
+    /// What that took beside the run.
+    pub work: Work,
 }
 
 /// Derivatives of the history of a plan, on the plan's grid.
@@ -159,14 +162,15 @@ fn derivatives(
         && (direction.is_some() || memory::check(bytes).is_ok())
         && let Some(past) = Past::of(&scene, steps)?
     {
-        let (found, near_events) =
+        let (found, near_events, work) =
             backward::backward(&scene, (past, steps), &parameters, &targets, &mut tell)?;
         for (gradient, by) in gradients.iter_mut().zip(found) {
             gradient.by = by;
         }
-        return Ok(Sensitivities { parameters, gradients, near_events, direction: Direction::Backward });
+        let direction = Direction::Backward;
+        return Ok(Sensitivities { parameters, gradients, near_events, direction, work });
     }
-    let near_events = forward(&scene, &parameters, steps, |(step, solved), changes| {
+    let (near_events, work) = forward(&scene, &parameters, steps, |(step, solved), changes| {
         for (gradient, target) in gradients.iter_mut().zip(&targets) {
             let here = target.columns.iter().filter(|(increment, ..)| *increment == step.record.increment);
             for (_, column, weight) in here {
@@ -179,7 +183,7 @@ fn derivatives(
         }
         tell(step)
     })?;
-    Ok(Sensitivities { parameters, gradients, near_events, direction: Direction::Forward })
+    Ok(Sensitivities { parameters, gradients, near_events, direction: Direction::Forward, work })
 }
 
 /// The columns that a sum is made of.

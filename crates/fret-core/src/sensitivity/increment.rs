@@ -13,7 +13,7 @@ use super::rule::{Cells, PathChange, Rule};
 use super::scene::Scene;
 use super::solved::{Solved, law_of};
 use super::transposed::Transposed;
-use crate::fields::add_scaled;
+use crate::fields::{add_scaled, dot, norm};
 use crate::history::StepRecord;
 use crate::model::Zone;
 use crate::model::controls::FREEDOMS;
@@ -33,6 +33,8 @@ pub(super) struct Increment<'a> {
     rule: Rule,
     pub contact: Contact<'a>,
     after: After<'a>,
+    /// Norm of its tractions [pressure].
+    size: f64,
 }
 
 impl<'a> Increment<'a> {
@@ -50,7 +52,8 @@ impl<'a> Increment<'a> {
         let rule = Rule::new(scene, (load, end_point), [before, former], contact, Cells::All);
         let contact = Contact::new(scene, (now, before), (load, &law, &rule));
         let after = After::new(scene, [now, before], (&law, &rule));
-        Self { scene, load, rule, contact, after }
+        let size = now.tractions.iter().map(|part| dot(part, part)).sum::<f64>().sqrt();
+        Self { scene, load, rule, contact, after, size }
     }
 
     /// Its linear equations.
@@ -80,17 +83,19 @@ impl<'a> Increment<'a> {
     }
 
     /// Backwards, from those after it: adds to those before it, before the one before, and to the numbers of the case. `drive.response` is
-    /// what the displacements of its tractions count, in all cells of the region.
+    /// what the displacements of its tractions count, in all cells of the region. `largest`: the largest product of a right side and of tractions
+    /// in the increments so far, beside which what is left of the equations is small enough.
     pub fn transposed(
         &self,
         equations: &mut Linearised<'_>,
         mut next: Change,
         [before, former]: [&mut Change; 2],
         (drive, numbers): (&mut Drive, &mut [f64; FREEDOMS]),
+        largest: &mut f64,
     ) -> Result<(), f64> {
         let mut paths = PathChange::none(self.contact.cells.len());
         let solution = self.after.transposed(&mut next, before, (&mut paths, drive));
-        let asked = self.solve_transposed(equations, solution, drive)?;
+        let asked = self.solve_transposed(equations, solution, drive, largest)?;
         self.contact.asked_transposed(&asked, [before, &mut next], (&mut paths, drive));
         self.rule.transposed(paths, [before, former, &mut next], self.contact.set);
         self.load.transposed(&next, before, numbers);
@@ -126,9 +131,11 @@ impl<'a> Increment<'a> {
             add_scaled(asked, -1.0, row);
         }
         let right = equations.right_side(&asked.displacements, &asked.amounts);
-        let (found, reached) = krylov::solve(equations, &right, target(self.scene.plan.case.tolerance));
-        if !(reached <= ENOUGH) {
-            return Err(reached);
+        let size = norm(&right);
+        let allowed = target(self.scene.plan.case.tolerance) * size;
+        let (found, reached) = krylov::solve(equations, &right, None, allowed);
+        if !(reached <= ENOUGH * size) {
+            return Err(reached / size);
         }
         let (mut tractions, motions) = equations.parted(&found);
         for (traction, given) in tractions.iter_mut().zip(&given) {
@@ -146,6 +153,7 @@ impl<'a> Increment<'a> {
         equations: &mut Linearised<'_>,
         solution: Solution,
         drive: &mut Drive,
+        largest: &mut f64,
     ) -> Result<Asked, f64> {
         let region = self.scene.region.len();
         let Solution { mut tractions, displacements, motions } = solution;
@@ -154,11 +162,20 @@ impl<'a> Increment<'a> {
             add_scaled(traction, 1.0, &by);
         }
         let right = equations.parted_transposed(&tractions, &motions);
-        let mut problem = Transposed(equations);
-        let (found, reached) = krylov::solve(&mut problem, &right, target(self.scene.plan.case.tolerance));
-        if !(reached <= ENOUGH) {
-            return Err(reached);
+        let size = norm(&right);
+        // A residual changes the derivatives by its product with the change of the solution, which is of the size of the tractions.
+        *largest = largest.max(size * self.size);
+        let wanted = target(self.scene.plan.case.tolerance);
+        let allowed = if self.size > 0.0 { wanted * (*largest / self.size) } else { wanted * size };
+        // Where all that counts is what displacements in the contact count, the cells see just that.
+        let seen = displacements.each_ref().map(|field| self.contact.set.packed(field));
+        let guess = equations.rows_of(&seen);
+        let mut problem = Transposed::of(equations);
+        let (found, reached) = krylov::solve(&mut problem, &right, Some(guess), allowed);
+        if !(reached <= allowed.max(ENOUGH * size)) {
+            return Err(reached / size);
         }
+        let moved = problem.moved;
         let (asked, amounts) = equations.right_side_transposed(&found);
         let seen = self.contact.seen(&asked);
         let on_region = seen.each_ref().map(|packed| {
@@ -167,8 +184,10 @@ impl<'a> Increment<'a> {
             field
         });
         if self.contact.cells.iter().any(|cell| cell.along != [0.0; 2]) {
-            for (traction, by) in tractions.iter_mut().zip(equations.displacements(&on_region)) {
-                add_scaled(traction, -1.0, &by);
+            for (traction, by) in tractions.iter_mut().zip(&moved) {
+                for (place, cell) in self.contact.set.cells().enumerate() {
+                    traction[cell] -= by[place];
+                }
             }
             let follow = std::array::from_fn(|motion| match self.contact.prescribed[motion] {
                 Prescribed::Motion => 0.0,

@@ -1,7 +1,7 @@
-//! The linear problems of derivatives: by the solver's GMRES, in double precision, preconditioned from the right, and what it leaves over solved for
-//! again until the last digits are reached.
+//! The linear problems of derivatives: by the solver's GMRES, preconditioned from the right, from a guess where there is one; what it leaves over is
+//! solved for again until little enough is left.
 
-use crate::fields::{add_scaled, norm};
+use crate::fields::{add_scaled, dot, norm};
 use crate::solver::{ContactVector, Gmres};
 
 /// Krylov steps at the most.
@@ -23,8 +23,14 @@ pub(super) trait LinearProblem {
     }
 }
 
-/// Solves a problem to a relative residual `target`; with it the residual that was reached, evaluated with the solution.
-pub(super) fn solve(problem: &mut impl LinearProblem, right: &[f64], target: f64) -> (Vec<f64>, f64) {
+/// Solves a problem until a residual of the size `allowed` is left, from a guess of the direction of its solution; with it the size of the residual,
+/// evaluated with the solution.
+pub(super) fn solve(
+    problem: &mut impl LinearProblem,
+    right: &[f64],
+    guess: Option<Vec<f64>>,
+    allowed: f64,
+) -> (Vec<f64>, f64) {
     let size = norm(right);
     let mut solution = vec![0.0; right.len()];
     if right.iter().all(|value| *value == 0.0) {
@@ -33,39 +39,69 @@ pub(super) fn solve(problem: &mut impl LinearProblem, right: &[f64], target: f64
     if !(size > 0.0 && size.is_finite()) {
         return (solution, f64::INFINITY);
     }
+    if size <= allowed {
+        return (solution, size);
+    }
     let mut left = right.to_vec();
-    let mut reached = 1.0;
+    if let Some(guess) = guess {
+        start(problem, &guess, &mut left, &mut solution);
+        // In single precision: not the last word.
+        if norm(&left) <= allowed {
+            residual(problem, right, &solution, &mut left);
+        }
+    }
+    let mut reached = norm(&left);
+    if reached <= allowed {
+        return (solution, reached);
+    }
     let mut may_hurry = true;
     for _ in 0..MOST_ROUNDS {
         let hurries = problem.hurry(may_hurry);
-        let aim = if hurries { SINGLE.max(target / reached) } else { target / reached };
+        let aim = if hurries { SINGLE.max(allowed / reached) } else { allowed / reached };
         let step = krylov(problem, &left, aim);
         problem.hurry(false);
         add_scaled(&mut solution, 1.0, &step);
-        problem.apply(&solution, &mut left);
-        for (left, right) in left.iter_mut().zip(right) {
-            *left = right - *left;
-        }
-        let now = norm(&left) / size;
+        residual(problem, right, &solution, &mut left);
+        let now = norm(&left);
         // Where single precision does not serve, double precision goes on.
         may_hurry = now < 0.01 * reached;
         if !(now < reached) {
             add_scaled(&mut solution, -1.0, &step);
+            residual(problem, right, &solution, &mut left);
+            reached = norm(&left);
             if !hurries {
                 break;
-            }
-            problem.apply(&solution, &mut left);
-            for (left, right) in left.iter_mut().zip(right) {
-                *left = right - *left;
             }
             continue;
         }
         reached = now;
-        if reached <= target {
+        if reached <= allowed {
             break;
         }
     }
     (solution, reached)
+}
+
+/// What the equations leave of the right side with a solution.
+fn residual(problem: &mut impl LinearProblem, right: &[f64], solution: &[f64], left: &mut [f64]) {
+    problem.apply(solution, left);
+    for (left, right) in left.iter_mut().zip(right) {
+        *left = right - *left;
+    }
+}
+
+/// Begins with as much of a guess as leaves least of the right side.
+fn start(problem: &mut impl LinearProblem, guess: &[f64], left: &mut [f64], solution: &mut [f64]) {
+    let mut image = vec![0.0; guess.len()];
+    problem.hurry(true);
+    problem.apply(guess, &mut image);
+    problem.hurry(false);
+    let size = dot(&image, &image);
+    if size > 0.0 && size.is_finite() {
+        let amount = dot(&image, left) / size;
+        add_scaled(solution, amount, guess);
+        add_scaled(left, -amount, &image);
+    }
 }
 
 /// One search for the combination of Krylov directions with the least residual.
@@ -125,9 +161,15 @@ mod tests {
         let mut problem = Dense(matrix);
         let mut right = vec![0.0; 40];
         problem.apply(&known, &mut right);
-        let (found, reached) = solve(&mut problem, &right, 1e-14);
-        assert!(reached < 1e-14, "{reached:e}");
-        assert!(found.iter().zip(&known).all(|(found, known)| (found - known).abs() < 1e-12));
-        assert_eq!(solve(&mut problem, &[0.0; 40], 1e-14), (vec![0.0; 40], 0.0));
+        let allowed = 1e-14 * norm(&right);
+        let nearby: Vec<f64> = known.iter().map(|value| -3.0 * value + 1e-3).collect();
+        for guess in [None, Some(nearby), Some(known.clone()), Some(vec![0.0; 40])] {
+            let (found, reached) = solve(&mut problem, &right, guess, allowed);
+            assert!(reached <= allowed, "{reached:e}");
+            assert!(found.iter().zip(&known).all(|(found, known)| (found - known).abs() < 1e-12));
+        }
+        assert_eq!(solve(&mut problem, &[0.0; 40], None, 0.0), (vec![0.0; 40], 0.0));
+        // What is small enough already is not solved for.
+        assert_eq!(solve(&mut problem, &right, None, 1e3), (vec![0.0; 40], norm(&right)));
     }
 }

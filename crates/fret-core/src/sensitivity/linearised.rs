@@ -22,6 +22,8 @@ pub(super) struct Operators {
     pub preconditioner: Preconditioner,
     /// Whether shear is unknown.
     pub frictional: bool,
+    /// Applications of the response in linear problems so far.
+    pub of_linear_problems: usize,
 }
 
 /// A field of tractions or displacements: normal, along x and y.
@@ -108,7 +110,8 @@ impl<'a> Linearised<'a> {
     /// Displacements of tractions in the cells of the contact, both packed; in single precision where that is wanted [length].
     pub(super) fn moved(&mut self, tractions: &Fields) -> Fields {
         let mut moved = zeros(self.cells.len());
-        let Operators { compliance, preconditioner, frictional } = &mut *self.operators;
+        let Operators { compliance, preconditioner, frictional, of_linear_problems } = &mut *self.operators;
+        *of_linear_problems += 1;
         let from = tractions.each_ref().map(Vec::as_slice);
         let mut to = moved.each_mut().map(Vec::as_mut_slice);
         if !*frictional {

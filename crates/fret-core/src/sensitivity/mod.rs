@@ -10,6 +10,7 @@ mod bodies;
 mod cell;
 mod change;
 mod coming;
+mod constants;
 mod contact;
 mod energies;
 mod error;
@@ -30,9 +31,11 @@ mod solved;
 #[cfg(test)]
 mod tests;
 mod transposed;
+mod work;
 
 pub use error::SensitivityError;
 pub use events::NearEvents;
 pub use gradient::{Direction, Gradient, Request, Sensitivities, check_asked, gradient, pulled_back};
 pub use objective::{COLUMNS, check_name};
 pub use parameter::Parameter;
+pub use work::Work;

@@ -108,6 +108,7 @@ impl<'a> Scene<'a> {
             compliance: SpectralCompliance::new(response, shape, set).map_err(failed)?,
             preconditioner: Preconditioner::new(response, waves, shape, set).map_err(failed)?,
             frictional: self.is_frictional(),
+            of_linear_problems: 0,
         })
     }
 

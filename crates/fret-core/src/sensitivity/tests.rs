@@ -312,10 +312,10 @@ fn equations(
     let (x, y) = (vector(random, size), vector(random, size));
     let (mut forward, mut back) = (vec![0.0; size], vec![0.0; size]);
     problem.apply(&x, &mut forward);
-    Transposed(&mut problem).apply(&y, &mut back);
+    Transposed::of(&mut problem).apply(&y, &mut back);
     alike("equations", dot(&y, &forward), dot(&back, &x), 1e-12);
     problem.invert(&x, &mut forward);
-    Transposed(&mut problem).invert(&y, &mut back);
+    Transposed::of(&mut problem).invert(&y, &mut back);
     // The small matrix of the motions is inverted twice, by elimination.
     alike("approximate inverse", dot(&y, &forward), dot(&back, &x), 1e-9);
     let (asked, amounts) = (fields(random, contact.cells.len()), array::<MOTIONS>(random));
@@ -423,7 +423,9 @@ fn an_increment_goes_backwards_by_its_transpose_block_by_block() {
                 };
                 let (y, mut back) = (of_block(&y), Made::none(cells));
                 let Made { before, former, drive, numbers } = &mut back;
-                increment.transposed(&mut equations, y.clone(), [before, former], (drive, numbers)).unwrap();
+                increment
+                    .transposed(&mut equations, y.clone(), [before, former], (drive, numbers), &mut 0.0)
+                    .unwrap();
                 let norm = |change: &Change| of_changes(change, change).sqrt();
                 for (from, (part, left)) in parts.iter().zip(&left).enumerate() {
                     let (forward, backward) = (of_changes(&y, left), back.times(part));

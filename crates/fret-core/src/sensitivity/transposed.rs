@@ -4,10 +4,22 @@
 use super::cell::{MOTIONS, Prescribed, Shear};
 use super::krylov::LinearProblem;
 use super::linearised::{Fields, Linearised, solved, zeros};
-use crate::fields::add_scaled;
+use crate::fields::{add_scaled, dot};
 
 /// The transposed problem.
-pub(super) struct Transposed<'a, 'b>(pub &'a mut Linearised<'b>);
+pub(super) struct Transposed<'a, 'b> {
+    problem: &'a mut Linearised<'b>,
+    /// Displacements by what the cells saw the last time, packed.
+    pub moved: Fields,
+}
+
+impl<'a, 'b> Transposed<'a, 'b> {
+    /// That of a problem.
+    pub fn of(problem: &'a mut Linearised<'b>) -> Self {
+        let moved = zeros(problem.cells.len());
+        Self { problem, moved }
+    }
+}
 
 impl Linearised<'_> {
     /// The transpose of the tractions of unknowns, packed.
@@ -59,6 +71,28 @@ impl Linearised<'_> {
             }
         }
         (asked, std::array::from_fn(|motion| right[3 * n + motion] * self.weight_of(motion)))
+    }
+
+    /// Rows by which the cells see displacements nearest to these, packed; none of motions.
+    pub fn rows_of(&self, [normal, x, y]: &Fields) -> Vec<f64> {
+        let n = self.cells.len();
+        let unit = self.own[0];
+        let mut rows = vec![0.0; self.len()];
+        for (place, cell) in self.cells.iter().enumerate() {
+            let seen = [x[place], y[place]];
+            rows[place] = normal[place] * unit;
+            [rows[n + place], rows[2 * n + place]] = match cell.shear {
+                Shear::Held => seen.map(|part| part * unit),
+                Shear::HeldAlong(axis) => [seen[axis] * unit, 0.0],
+                Shear::Turns { row, compliance } => {
+                    let (size, along) = (dot(&row, &row), dot(&row, &seen));
+                    let turned = if size > 0.0 { along / size } else { 0.0 };
+                    [turned * unit / self.slip_weight(compliance), 0.0]
+                }
+                Shear::Follows => [0.0; 2],
+            };
+        }
+        rows
     }
 
     /// Amounts of resultants, from what rows of motions make of them: their transpose, before it is spread over the cells.
@@ -156,11 +190,12 @@ impl Linearised<'_> {
 
 impl LinearProblem for Transposed<'_, '_> {
     fn apply(&mut self, rows: &[f64], unknowns: &mut [f64]) {
-        let problem = &mut *self.0;
+        let problem = &mut *self.problem;
         let n = problem.cells.len();
         unknowns.fill(0.0);
         let seen = problem.cell_rows_transposed(rows, unknowns);
-        let mut tractions = problem.moved(&seen);
+        self.moved = problem.moved(&seen);
+        let mut tractions = self.moved.clone();
         problem.resultants_transposed(&problem.of_resultants(&rows[3 * n..]), &mut tractions);
         let mut of_tractions = vec![0.0; unknowns.len()];
         problem.tractions_transposed(&tractions, &mut of_tractions);
@@ -176,11 +211,11 @@ impl LinearProblem for Transposed<'_, '_> {
     }
 
     fn hurry(&mut self, may: bool) -> bool {
-        self.0.hurry(may)
+        self.problem.hurry(may)
     }
 
     fn invert(&mut self, unknowns: &[f64], rows: &mut [f64]) {
-        let problem = &mut *self.0;
+        let problem = &mut *self.problem;
         let n = problem.cells.len();
         let right = std::array::from_fn(|motion| {
             let bordered = &problem.bordered[motion];

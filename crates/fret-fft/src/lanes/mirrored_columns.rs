@@ -126,11 +126,11 @@ impl<L: Lanes, const F: usize, const P: usize> Task<L> for MirroredColumns<'_, L
 }
 
 /// Reads one column of an input in the order of a mirrored line and does the outermost pass of its parts.
-struct MirroredForward<'a, L: Lanes, const R: usize, const P: usize> {
-    plan: &'a LinePlan<L::Number>,
-    side: Side,
-    spectrum: &'a [Line<L>],
-    lines: &'a mut [Line<L>],
+pub struct MirroredForward<'a, L: Lanes, const R: usize, const P: usize> {
+    pub plan: &'a LinePlan<L::Number>,
+    pub side: Side,
+    pub spectrum: &'a [Line<L>],
+    pub lines: &'a mut [Line<L>],
 }
 
 impl<L: Lanes, const R: usize, const P: usize> Task<L> for MirroredForward<'_, L, R, P> {

@@ -52,22 +52,13 @@ impl<L: Lanes, const F: usize> Task<L> for MultiplyParts<'_, L, F> {
             let kernels = &self.kernels[place * count..(place + 4) * count];
             fetch(self.kernels.get((place + 8).wrapping_mul(count)..(place + 12).wrapping_mul(count)));
             let turns = &self.plan.mirror_turns()[place..place + 4];
+            let turns = self.mirrored.then_some(turns);
             for field in 0..self.inputs.min(F) {
-                let mut d =
-                    butterfly(lanes, load_quad(lanes, &lines[2 * field * n + place..][..4]), &weights);
-                let mut e =
-                    butterfly(lanes, load_quad(lanes, &lines[(2 * field + 1) * n + place..][..4]), &weights);
-                for m in 0..4 {
-                    if self.mirrored {
-                        let [cosine, sine] = [lanes.splat(turns[m][0]), lanes.splat(turns[m][1])];
-                        d[m] = d[m].rotated(lanes, cosine, sine);
-                        e[m] = e[m].rotated(lanes, cosine, sine);
-                    }
-                    slots.0[field][0][m] = lanes.add(d[m].re, e[m].im);
-                    slots.0[field][1][m] = lanes.sub(e[m].re, d[m].im);
-                    slots.0[field][2][m] = lanes.sub(zero, lanes.add(d[m].im, e[m].re));
-                    slots.0[field][3][m] = lanes.sub(e[m].im, d[m].re);
-                }
+                let parts = [0, 1].map(|part| {
+                    let quad = &lines[(2 * field + part) * n + place..][..4];
+                    butterfly(lanes, load_quad(lanes, quad), &weights)
+                });
+                slots.0[field] = slots_of(lanes, parts, turns);
             }
             for (output, terms) in self.terms.iter().enumerate() {
                 let mut sums = [[zero; 4]; 4];
@@ -93,7 +84,7 @@ impl<L: Lanes, const F: usize> Task<L> for MultiplyParts<'_, L, F> {
                         re: lanes.sub(sums[1][m], sums[2][m]),
                         im: lanes.add(sums[0][m], sums[3][m]),
                     };
-                    if self.mirrored {
+                    if let Some(turns) = turns {
                         let [cosine, sine] =
                             [lanes.splat(turns[m][0]), lanes.sub(zero, lanes.splat(turns[m][1]))];
                         d[m] = d[m].rotated(lanes, cosine, sine);
@@ -111,6 +102,29 @@ impl<L: Lanes, const F: usize> Task<L> for MultiplyParts<'_, L, F> {
             }
         }
     }
+}
+
+/// The slots of both parts of four places, turned where the columns are mirrored.
+#[inline(always)]
+pub fn slots_of<L: Lanes>(
+    lanes: L,
+    [mut d, mut e]: [[Complex<L>; 4]; 2],
+    turns: Option<&[[L::Number; 2]]>,
+) -> [[L::Reals; 4]; 4] {
+    let zero = lanes.zero();
+    let mut slots = [[zero; 4]; 4];
+    for m in 0..4 {
+        if let Some(turns) = turns {
+            let [cosine, sine] = [lanes.splat(turns[m][0]), lanes.splat(turns[m][1])];
+            d[m] = d[m].rotated(lanes, cosine, sine);
+            e[m] = e[m].rotated(lanes, cosine, sine);
+        }
+        slots[0][m] = lanes.add(d[m].re, e[m].im);
+        slots[1][m] = lanes.sub(e[m].re, d[m].im);
+        slots[2][m] = lanes.sub(zero, lanes.add(d[m].im, e[m].re));
+        slots[3][m] = lanes.sub(e[m].im, d[m].re);
+    }
+    slots
 }
 
 /// Innermost forward pass, kernels, innermost inverse pass on whole columns of a product that repeats, pair by pair of

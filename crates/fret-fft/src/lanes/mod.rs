@@ -4,12 +4,13 @@
 //! scalar one. Frequencies stay in the order in which they come out; kernels are stored in that order. Per strip of
 //! columns, forward transform, kernels and inverse transform are done in cache. From the ground: `simd`, `vectors`, `x86`,
 //! `neon` and `butterfly` (arithmetic), `plan` (tables), `passes` (one line transform), `row_groups`, `rows`, `paired_rows`, `columns`,
-//! `mirrored_kernels` and `mirrored_columns` (the stages of a product), `spectrum` (kernels in the order of the engine), `reflection` (what mirrors change), `product` (the whole).
+//! `mirrored_kernels` and `mirrored_columns` (the stages of a product), `cross_columns` (cross spectra), `spectrum` (kernels in the order of the engine), `reflection` (what mirrors change), `product` (the whole).
 
 #![expect(clippy::needless_range_loop, reason = "an index runs over several arrays of lanes at once")]
 
 mod butterfly;
 mod columns;
+mod cross_columns;
 mod instruction_set;
 mod memory;
 mod mirrored_columns;

@@ -1,6 +1,7 @@
 //! The products of the lane engine: tables, kernels, and the order of the stages.
 
 mod boundary;
+mod cross;
 mod kernels;
 mod mirrored;
 mod single;
@@ -231,7 +232,7 @@ impl<N: Number> LaneProduct<N> {
     ) {
         let Self { layout, along_y: plan, .. } = self;
         let paired = self.boundary.paired();
-        let (first_field, rest) = layout.groups_in(spectra, self.inputs).split_at(layout.groups);
+        let (first_field, rest) = layout.groups_in(spectra, input.len()).split_at(layout.groups);
         let (second_field, third_field) = rest.split_at(layout.groups);
         let fields = [first_field, second_field, third_field].map(|groups| Together { groups, paired });
         let rows = |index: usize, first, run: Together<'_, N>, scratch: &mut [N]| {
