@@ -1,8 +1,8 @@
 use std::f64::consts::TAU;
 
 use super::*;
-use crate::fields::dot;
 use crate::compliance::{SpectralCompliance, SurfaceCompliance};
+use crate::fields::dot;
 use crate::kernel::{Components, influence_coefficients, periodic_symbols};
 use crate::model::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace};
 
