@@ -284,6 +284,43 @@ fn moving_surfaces_in_gross_slip_dissipate_force_times_way() {
     }
 }
 
+/// Operator applications per increment of each cycle of a history.
+fn applications(history: &History, increments: usize) -> Vec<f64> {
+    let sliding: Vec<usize> =
+        history.steps.iter().filter(|step| step.stage == 1).map(|step| step.work.convolutions).collect();
+    sliding.chunks(increments).map(|cycle| cycle.iter().sum::<usize>() as f64 / increments as f64).collect()
+}
+
+/// Increments start from the tractions of the cycle before. Where nothing wears these are the solution, and an increment takes what checks it: the
+/// tractions' own displacement and the gap of the whole grid; a ball in gross slip took 19.5 applications in every cycle. Where a cylinder wears, it took
+/// 18.
+#[test]
+fn a_cycle_starts_from_the_one_before() {
+    let ball = solved(&format!(
+        "[grid]\ncells = [64, 64]\nsize = [0.64, 0.64]\n[upper]\nrigid = true\n[lower]\n\
+         coatings = [{{ thickness = 2e-3, young = 300e3, poisson = 0.22 }}]\nsubstrate = {{ young = 210e3, poisson = 0.3 }}\n\
+         [profile.sphere]\nradius = 10.0\n[friction]\ncoefficient = 0.3\n{FINITE}\
+         [[load]]\nnormal_force = 100.0\nincrements = 8\nramp = \"cubic\"\n\
+         [[load]]\nshift = [0.1, 0.0]\ncycles = 3\nincrements = 32\n"
+    ));
+    let of_ball = applications(&ball, 32);
+    let steel = "young = 200e3, poisson = 0.3, wear_coefficient";
+    let cylinder = solved(&format!(
+        "[grid]\ncells = 160\nsize = 0.6\ndatum = 6.0\n[upper]\nsubstrate = {{ {steel} = 1.9e-8 }}\n\
+         [lower]\nsubstrate = {{ {steel} = 2.9e-8 }}\n[profile.cylinder]\nradius = 6.0\naxis = \"y\"\n\
+         [friction]\ncoefficient = 0.8\n{FINITE}[wear]\nlaw = \"archard\"\nevery = 20\n\
+         [[load]]\nnormal_force = 18.5\nincrements = 4\nramp = \"square\"\n\
+         [[load]]\nshift = [0.025, 0.0]\ncycles = 400\nincrements = 16\n"
+    ));
+    let of_cylinder = applications(&cylinder, 16);
+    println!("applications per increment: ball {of_ball:.1?}, cylinder {of_cylinder:.1?}");
+    assert!(of_ball[2] < 3.0 && of_ball[0] < 22.0, "{of_ball:?}");
+    let later = &of_cylinder[1..];
+    let mean = later.iter().sum::<f64>() / later.len() as f64;
+    // 9 were counted.
+    assert!(later.len() > 5 && mean < 11.0, "{mean}: {of_cylinder:?}");
+}
+
 /// A rigid ball slides over an elastic flat to the left; seen from the flat, that is the upper body and slides over the ball to the right. The
 /// displacement that the elastic body has before moves with it then.
 #[test]

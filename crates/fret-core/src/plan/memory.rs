@@ -2,7 +2,7 @@
 
 use crate::case::{Case, StageControl};
 use crate::model::{SurfaceGrid, Symmetry};
-use crate::solver::Coupling;
+use crate::solver::{Coupling, NUMBERS_OF_CYCLE};
 
 /// Bytes of the process itself.
 const PROCESS: usize = 15 << 20;
@@ -25,6 +25,8 @@ const TILTED: usize = 16;
 const BY_MOMENT: usize = 100;
 /// Bytes a cell of surfaces that move: the gap and the wear of each body, and with symmetry reduction the operator of the upper body.
 const MOVING: [usize; 2] = [80, 260];
+/// Bytes a cell of the tractions of their last cycle, in memory and in a checkpoint.
+const CYCLE: usize = NUMBERS_OF_CYCLE * size_of::<f64>();
 /// Bytes a cell of the tractions and slips of an increment whose stresses are looked at.
 const TRACTIONS: usize = 5 * 8;
 /// Bytes a cell of what fatigue and the fracture of a coating collect of an increment: the stress at the depth at work, sums over depths.
@@ -79,15 +81,19 @@ pub fn of_run(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Sym
     let frictions = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
     let maps = frictions.filter(|friction| friction.is_map()).count() + case.profile.heights.len();
     let [moving, operator] = if case.kinematics.is_finite() { MOVING } else { [0; 2] };
-    let in_front = in_front + remembered + tilt(case) + operator;
+    let cycle = if case.kinematics.is_finite() { CYCLE } else { 0 };
+    let in_front = in_front + remembered + tilt(case) + operator + cycle;
     let left_behind = if grid.len() * size_of::<f64>() < GOES_BACK { LEFT_BEHIND } else { 0 };
     let whole = whole + left_behind + worn + evolving + EACH_CELL * maps + moving;
     let solving = grid.len() * (whole + in_front / symmetry.copies());
     let stressed = case.stress.as_ref().map_or(0, |stress| {
         of_stress(grid.len(), case.kept_increments().len().div_ceil(stress.every.max(1)))
     });
-    let waiting =
-        if case.increments() > 1 { (grid.len() / symmetry.copies() * CHECKPOINT).min(WAITING) } else { 0 };
+    let waiting = if case.increments() > 1 {
+        (grid.len() / symmetry.copies() * (CHECKPOINT + cycle)).min(WAITING)
+    } else {
+        0
+    };
     PROCESS + waiting + solving.max(stressed)
 }
 

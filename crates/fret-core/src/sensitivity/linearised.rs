@@ -278,7 +278,7 @@ impl<'a> Linearised<'a> {
         let mut shear = [vec![0.0; n], vec![0.0; n]];
         if self.operators.frictional {
             let [to_x, to_y] = &mut shear;
-            self.operators.preconditioner.shear([&x, &y], [to_x, to_y], &mut self.weights);
+            self.operators.preconditioner.shear(([&x, &y], None), [to_x, to_y], &mut self.weights);
         }
         for (place, cell) in self.cells.iter().enumerate() {
             let own = [equations[n + place], equations[2 * n + place]];

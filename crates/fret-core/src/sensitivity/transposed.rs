@@ -168,7 +168,7 @@ impl Linearised<'_> {
         let mut shear = [vec![0.0; n], vec![0.0; n]];
         if self.operators.frictional {
             let [to_x, to_y] = &mut shear;
-            self.operators.preconditioner.shear([&x, &y], [to_x, to_y], &mut self.weights);
+            self.operators.preconditioner.shear(([&x, &y], None), [to_x, to_y], &mut self.weights);
         }
         for (place, cell) in self.cells.iter().enumerate() {
             let own = [unknowns[n + place], unknowns[2 * n + place]];

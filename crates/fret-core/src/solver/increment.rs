@@ -192,7 +192,12 @@ impl ContactSolver<'_> {
         last.map(|last| &last.displacements).or(before.displacements.as_ref())
     }
 
-    /// Tractions to start from: those of a contact that grows to the pressure from coarser grids, or that goes on as it did.
+    /// Whether increments start from the last cycle: those of surfaces that move and do not roll.
+    fn goes_in_cycles(&self) -> bool {
+        self.moved.is_some() && self.rolled == [0.0; 2]
+    }
+
+    /// Tractions to start from: those of the last cycle where surfaces move, of a contact that grows to the pressure from coarser grids, or that goes on as it did.
     fn predicted(
         &self,
         start: Option<&Array2<f64>>,
@@ -200,6 +205,12 @@ impl ContactSolver<'_> {
         region: Region,
     ) -> Tractions {
         let coupled = self.coupling == Coupling::Coupled;
+        let before = self.memory.last_load.filter(|_| self.goes_in_cycles() && start.is_none());
+        let as_last = before
+            .and_then(|from| self.memory.last_cycle.tractions([from, *load], (region, self.grid.cells())));
+        if let Some(tractions) = as_last {
+            return tractions;
+        }
         if self.rolled != [0.0; 2] && start.is_none() {
             let tractions = GridTractions::of(state).carried(self.rolled);
             return Tractions {
@@ -245,6 +256,9 @@ impl ContactSolver<'_> {
         solved: Solved,
         increment: &Increment,
     ) {
+        if let (true, Some(from)) = (self.goes_in_cycles(), self.memory.last_load) {
+            self.memory.last_cycle.keep([from, *load], &increment.state);
+        }
         let pauses = self.pauses(load);
         let last = self.memory.last.take();
         let mut drift = Drift::default();

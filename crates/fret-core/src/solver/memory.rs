@@ -6,6 +6,7 @@
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
+use super::last_cycle::LastCycle;
 use super::region::Region;
 use super::tractions::Displacements;
 use crate::fields::{Outside, TangentialField, add_scaled, carried, copied, stored};
@@ -22,6 +23,9 @@ pub struct SolverMemory {
     pub(super) before: Option<Before>,
     /// The load that led to the last state.
     pub(super) last_load: Option<LoadStep>,
+    /// The last cycle of surfaces that move.
+    #[serde(default)]
+    pub(super) last_cycle: LastCycle,
 }
 
 /// The state before the last one.
@@ -256,6 +260,7 @@ impl SolverMemory {
                 && before.drift.as_ref().is_none_or(|drift| drift.fits(cells))
         };
         self.region.is_none_or(|region| region.lies_within(cells))
+            && self.last_cycle.fits(cells)
             && self.last.as_ref().is_none_or(last_fits)
             && self.before.as_ref().is_none_or(before_fits)
     }

@@ -20,6 +20,7 @@ mod held_response;
 mod increment;
 mod increment_problem;
 mod iterate;
+mod last_cycle;
 mod laws;
 mod linear;
 mod memory;
@@ -57,6 +58,7 @@ use crate::model::{
 
 pub(crate) use contact_set::ContactSet;
 pub(crate) use contact_vector::ContactVector;
+pub(crate) use last_cycle::NUMBERS as NUMBERS_OF_CYCLE;
 pub(crate) use laws::friction::{
     FrictionLaw, bounds_on_grid as friction_bounds, dissipation, slip_until_open,
 };

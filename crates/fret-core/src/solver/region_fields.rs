@@ -44,10 +44,10 @@ impl<N: Number> RegionFields<N> {
                 *is_zero_outside = true;
             }
         }
-        let count = packed.len();
+        let count = results.len();
         after[..count].iter_mut().for_each(|field| reset(field, *cells));
         operator(
-            &before.each_ref().map(Vec::as_slice)[..count],
+            &before.each_ref().map(Vec::as_slice)[..packed.len()],
             &mut after.each_mut().map(Vec::as_mut_slice)[..count],
         );
         for (result, field) in results.iter_mut().zip(after) {

@@ -11,7 +11,11 @@ use super::operators::RegionOperators;
 use super::settings::{Coupling, IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
+use crate::fields::sum;
 use crate::model::TangentialField;
+
+/// So far outside of its circle that no rounding takes it off.
+const ON_CIRCLE: f64 = 1.0 + 1e-9;
 
 /// Solves an increment from predicted `tractions`. `last`: displacements of the state before, when they are known;
 /// `keeps_pressure`: its pressure is the one asked for.
@@ -42,8 +46,13 @@ pub fn solve(
         if increment.start.is_some() || !increment.touched() || !usable {
             tractions.pressure = increment.first_pressure(operators);
         }
+        let predicted = increment.travels.then(|| tractions.pressure.clone());
         let fields = [&mut tractions.pressure[..], &mut displacements.normal];
-        solve_normal(&increment.normal_equations(), fields, operators, settings, callback)?
+        let found = solve_normal(&increment.normal_equations(), fields, operators, settings, callback)?;
+        if let Some(predicted) = predicted {
+            make_shear_follow(&mut tractions, &predicted);
+        }
+        found
     };
     let mut drift = TangentialField::zeros(cells);
     let mut solution = Solution::without_slip(cells, increment.tangential.motion);
@@ -72,6 +81,19 @@ pub fn solve(
     let NormalSolution { residual: normal, gap, iterations } = pressure;
     let solution = Solution { normal, gap, iterations: iterations + solution.iterations, ..solution };
     Ok(Solved { tractions, displacements, drift, solution })
+}
+
+/// Shear predicted with a pressure keeps its ratio to the pressure, so that what slips stays on its circle; in cells that enter it has the mean ratio.
+fn make_shear_follow(tractions: &mut Tractions, predicted: &[f64]) {
+    let Tractions { pressure, shear } = tractions;
+    let total = sum(predicted);
+    for part in shear.parts_mut() {
+        let mean = if total > 0.0 { sum(part) / total } else { 0.0 };
+        for ((q, p), before) in part.iter_mut().zip(&*pressure).zip(predicted) {
+            let ratio = if *before > 0.0 { *q / before } else { mean };
+            *q = ratio * p * ON_CIRCLE;
+        }
+    }
 }
 
 /// What the pressure of the state before is a solution of, with its displacement.

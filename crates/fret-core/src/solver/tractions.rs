@@ -6,9 +6,10 @@ use crate::fields::{reset, stored};
 use crate::model::TangentialField;
 
 /// Pressure and shear.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Tractions {
     /// Pressure [pressure].
+    #[serde(with = "stored")]
     pub pressure: Vec<f64>,
     /// Shear on the lower body [pressure].
     pub shear: TangentialField,

@@ -166,14 +166,17 @@ impl<'a, N: Number> LinearProblem<'a, N> {
 
         tractions.reset_like(residual);
         let (pressure, [x, y]) = tractions.parts_mut();
-        preconditioner.shear([unweighted_x, unweighted_y], [&mut *x, &mut *y], slip_weights);
+        if !pressure.is_empty() {
+            preconditioner.pressure(normal, pressure, slip_weights);
+            self.linearised.without_motions(pressure);
+        }
+        let right = ([&unweighted_x[..], &unweighted_y[..]], Some(&*pressure).filter(|p| !p.is_empty()));
+        preconditioner.shear(right, [&mut *x, &mut *y], slip_weights);
         if pressure.is_empty() {
             self.tractions.keep_free([x, y]);
             each_cell(&Turning, [slip, along_x, along_y, &*x, &*y], [turning]);
             return;
         }
-        preconditioner.pressure(normal, pressure, slip_weights);
-        self.linearised.without_motions(pressure);
         let read = [stick, slip, along_x, along_y, &sets.slope, &*pressure, around_x, around_y];
         let resultant = each_cell(&FreeAndFollow, read, [&mut *x, &mut *y]);
         let amounts = self.tractions.amounts(resultant);

@@ -1,9 +1,10 @@
 use std::f64::consts::TAU;
 
 use super::*;
+use crate::compliance::{SpectralCompliance, SurfaceCompliance};
 use crate::fields::dot;
 use crate::kernel::{Components, influence_coefficients, periodic_symbols};
-use crate::model::{Base, Body, ContactPair, ElasticMaterial, HalfSpace};
+use crate::model::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace};
 
 const CELLS: [usize; 2] = [16, 12];
 const SPACING: [f64; 2] = [0.5, 0.7];
@@ -56,7 +57,7 @@ fn shear_of(
     let mut weights = SlipWeights::default();
     tested.prepare(contact, slip_compliance, 1.0, &mut weights);
     let (mut x, mut y) = (vec![9.0; right[0].len()], vec![9.0; right[0].len()]);
-    tested.shear(right, [&mut x, &mut y], &mut weights);
+    tested.shear((right, None), [&mut x, &mut y], &mut weights);
     [x, y]
 }
 
@@ -84,6 +85,42 @@ fn waves_on_a_periodic_half_space_are_removed_exactly() {
         let [x, y] = shear_of(&mut tested, &contact, [&right[0], &right[1]], &stick);
         assert!(worst(&x, &wave) < rounding && worst(&y, &times(2.0)) < 2.0 * rounding);
         assert_eq!(tested.passes, 3);
+    }
+}
+
+/// A film a hundred times stiffer than what is below it, on a grid that repeats, all in contact: the pressure that removes normal displacements
+/// moves the surface along itself, and the shear found with it leaves of the tangential displacements nothing. Without a film the shear is
+/// found by itself.
+#[test]
+fn under_a_film_shear_removes_what_pressure_displaces_along_the_surface() {
+    let material = |young: f64| ElasticMaterial::new(young, NU).unwrap();
+    let film = Coating::new(material(100.0), 0.4).unwrap();
+    let lower = HalfSpace::new(vec![film], Base::Elastic(material(1.0))).unwrap();
+    let film = ContactPair::new(Body::Rigid, Body::Elastic(lower)).unwrap();
+    let cells = CELLS[0] * CELLS[1];
+    // Random numbers whose sum is zero: what is uniform displaces by what the datum says.
+    let field = |seed: usize| -> Vec<f64> {
+        let at = |cell: usize| ((cell * cell + seed * cell + 3 * seed) % 17) as f64 / 8.0 - 1.0;
+        let mean = (0..cells).map(at).sum::<f64>() / cells as f64;
+        (0..cells).map(|cell| at(cell) - mean).collect()
+    };
+    for (pair, follows) in [(film, true), (pair(), false)] {
+        let symbols = periodic_symbols(&pair, CELLS, SPACING, Components::ALL, 0);
+        let response = SurfaceResponse::Periodic(symbols);
+        let operators = OperatorSet { full: true, ..OperatorSet::default() };
+        let mut compliance = SpectralCompliance::new(&response, CELLS, operators).unwrap();
+        let mut tested = Preconditioner::new(&response, None, CELLS, operators).unwrap();
+        assert_eq!(tested.follows_pressure, follows);
+        let (gap, right) = (field(1), [field(2), field(5)]);
+        let mut weights = SlipWeights::default();
+        tested.prepare(&all(), &vec![0.0; cells], 1.0, &mut weights);
+        let [mut p, mut x, mut y, mut normal, mut along, mut across] = [(); 6].map(|()| vec![0.0; cells]);
+        tested.pressure(&gap, &mut p, &weights);
+        tested.shear(([&right[0], &right[1]], Some(&p)), [&mut x, &mut y], &mut weights);
+        compliance.full([&p, &x, &y], [&mut normal, &mut along, &mut across]);
+        let left = worst(&along, &right[0]).max(worst(&across, &right[1]));
+        // Rounding of the stiffest waves' tractions; a half-space of this Poisson ratio leaves more than a tenth.
+        assert!(if follows { left < 1e-11 } else { left > 0.1 }, "{left}");
     }
 }
 
