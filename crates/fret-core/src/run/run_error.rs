@@ -1,7 +1,7 @@
 //! Why a run ends without its answer.
 
 use super::checkpoint::Place;
-use crate::case::{Case, Units, WAY_TO_SLIDE, apart};
+use crate::case::{Case, StageControl, Units, WAY_TO_SLIDE, apart};
 use crate::machine::memory::MemoryError;
 use crate::solver::{Carried, SolveError};
 
@@ -203,9 +203,24 @@ pub fn too_thin(case: &Case, place: &Place, reason: &str) -> RunError {
     RunError::WornTooThin { increment: place.solved, stage, reason: reason.to_owned() }
 }
 
+/// What to try where an increment is not solved.
+fn way_to_solve(case: &Case, stage: usize) -> String {
+    let shifts = case.stages[stage].tangential.iter().flatten().any(StageControl::is_motion);
+    let usual = "try more increments in this stage, or a larger solver.tolerance";
+    if case.counts_mean_gap() && shifts {
+        format!(
+            "{usual}; where periodic half-spaces touch everywhere and stick, a shift does not tell the force: a stage with a tangential_force \
+             under which the first cells slip comes before it"
+        )
+    } else {
+        usual.to_owned()
+    }
+}
+
 /// What a solver's error means for increment `increment` of stage `stage` of a case.
 pub fn run_error(error: &SolveError, increment: usize, case: &Case, stage: usize) -> RunError {
-    let (stage, tolerance) = (case.stages[stage].name.clone(), case.tolerance);
+    let (number, tolerance) = (stage, case.tolerance);
+    let stage = case.stages[number].name.clone();
     let unit = |kind: &str| Units::after(case.units.as_ref(), kind, case.dimension());
     match error.clone() {
         SolveError::NotConverged { reached, iterations } => RunError::NotConverged {
@@ -214,7 +229,7 @@ pub fn run_error(error: &SolveError, increment: usize, case: &Case, stage: usize
             reached,
             tolerance,
             iterations,
-            advice: "try more increments in this stage, or a larger solver.tolerance".to_owned(),
+            advice: way_to_solve(case, number),
         },
         SolveError::AboveSliding { asked, bound, by } => {
             let (unit, advice) = (unit("force"), WAY_TO_SLIDE);
