@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use fret_core::history::History;
-use fret_validation::{keeping, solved, solved_with};
+use fret_validation::{keeping, run, solved, solved_with};
 use ndarray::Array2;
 use serde_json::Value;
 
@@ -41,7 +41,7 @@ fn fraction(d: f64) -> f64 {
 
 /// Elastically similar bodies that answer along the surface as along the normal (plane strain across the line; any, for Poisson's ratio 0): shear is
 /// `mu (p - p*)`, where p* is the pressure at the approach that is `shift / mu` less (Ciavarella, Jaeger). So the shift slides all of the contact
-/// from `mu approach` on, and before that the force is `mu (P - P*)`. In full contact the first of it moves no surface.
+/// from `mu approach` on, and before that the force is `mu (P - P*)`. In full contact the first of it moves no surface, and is prescribed.
 #[test]
 fn a_wave_slides_from_a_shift_of_mu_times_its_approach_on() {
     for share in [0.3, 0.7, 1.6] {
@@ -49,11 +49,16 @@ fn a_wave_slides_from_a_shift_of_mu_times_its_approach_on() {
         let force = share * FULL * AREA;
         let mut text = format!("{WAVE}[[load]]\nnormal_force = {force:e}\nincrements = 1\n");
         let parts = [0.2, 0.5, 0.8, 0.95, 1.05, 2.0, 4.0];
+        if share > 1.0 {
+            let slips = FRICTION * (share - 0.95) * FULL * AREA;
+            text += &format!("[[load]]\ntangential_force = [{slips:e}, 0.0]\nincrements = 1\n");
+        }
         for part in parts {
             text += &format!("[[load]]\nshift = [{:e}, 0.0]\nincrements = 1\n", part * onset);
         }
         let history = solved(&text);
-        for (part, step) in parts.iter().zip(&history.steps[1..]) {
+        let slid = &history.steps[history.steps.len() - parts.len()..];
+        for (part, step) in parts.iter().zip(slid) {
             let less = if *part < 1.0 { fraction(approach(share) - part * onset / FRICTION) } else { 0.0 };
             let exact = FRICTION * (share - less) * FULL * AREA;
             let off = step.tangential_force[0] / exact - 1.0;
@@ -66,13 +71,24 @@ fn a_wave_slides_from_a_shift_of_mu_times_its_approach_on() {
             assert_eq!(step.stick_cells == 0, *part > 1.0, "{share}, {part}");
         }
         // What is dissipated in sliding is mu P times the way.
-        let [before, after] = [5, 7].map(|number| &history.steps[number]);
+        let [before, after] = [4, 6].map(|number| &slid[number]);
         let way = 2.95 * onset;
         let work = after.dissipated_energy - before.dissipated_energy;
         let off = work / (FRICTION * force * way) - 1.0;
         assert!(off.abs() < 1e-9, "{share}: work off by {off:e}");
         assert!((after.shift[0] - before.shift[0] - way).abs() < 1e-12 * way);
     }
+}
+
+/// Where all of it touches and sticks a shift fixes no force: that is said with a way, which the test above takes.
+#[test]
+fn a_shift_of_a_full_contact_that_sticks_is_told_a_way() {
+    let text = format!(
+        "{WAVE}[[load]]\nnormal_force = {:e}\nincrements = 1\n[[load]]\nshift = [6e-4, 0.0]\nincrements = 1\n",
+        1.6 * FULL * AREA
+    );
+    let error = run(&text).unwrap_err().to_string();
+    assert!(error.contains("touch everywhere and stick") && error.contains("tangential_force"), "{error}");
 }
 
 /// Heights of a rough surface of 40 x 40 cells, and the side of its period.

@@ -8,6 +8,9 @@ use serde_json::{Map, Value};
 use crate::document::{At, Keys, Read, Reader, Table, TableReader};
 use crate::model::controls::{ControlRow, Form, Way, ways};
 
+/// No load or motion is larger, in any unit: products of two of them, and sums of these, are finite.
+pub(super) const LARGEST: f64 = 1e100;
+
 /// What stays as it was.
 #[derive(Debug, Clone, Copy, PartialEq, Table, JsonSchema)]
 #[schemars(rename_all = "lowercase", description = "")]

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::control_keys::{self, Column, Given};
+use super::control_keys::{self, Column, Given, LARGEST};
 use super::judge::Judge;
 use super::mean_gap::counted_from;
 use super::stage_file::StageFile;
@@ -10,9 +10,6 @@ use super::table::Columns;
 use crate::document::At;
 use crate::model::controls::{ControlRow, FREEDOMS, Form, Kind};
 use crate::model::stage::{Path, StageControl};
-
-/// No load or motion is larger, in any unit: products of two of them, and sums of these, are finite.
-pub(super) const LARGEST: f64 = 1e100;
 
 /// What a stage prescribes, for each degree of freedom; what is refused is left out.
 pub(super) type Controls = [Option<StageControl>; FREEDOMS];

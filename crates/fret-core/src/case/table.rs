@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::control_keys::{Column, columns};
-use super::controls::LARGEST;
+use super::control_keys::{Column, LARGEST, columns};
 use super::judge::Judge;
 use super::stage_file::StageFile;
 use super::table_layout::{Layout, layout};

@@ -152,13 +152,7 @@ impl Plan {
                 format!("grid.size = {size:?}: no cell centre lies on the body, which ends between them");
             return Err(case.refuse_size(message, "more cells, or a smaller grid"));
         }
-        if let Some([x, y]) = case.profile.undefined_on(&grid) {
-            let message = format!(
-                "grid.cells = {:?}: the formula of the profile has no finite value at x = {x:?}, y = {y:?}",
-                case.cells
-            );
-            return Err(case.refuse_size(message, "other cells, or a formula with a value everywhere"));
-        }
+        has_values(&case, &grid)?;
         if !case.periodic && has_unseen_film(&case, &grid) {
             let message = format!(
                 "grid.cells = {:?}: a nearly incompressible film on a stiff base is thinner than a fifth of a cell; it moves \
@@ -301,6 +295,16 @@ fn has_a_body(case: &Case, grid: &SurfaceGrid) -> bool {
     let centres = [0, 1].map(|axis| grid.centres(axis));
     let there = |x: f64| centres[1].iter().any(|y| case.profile.gap_of_shapes_at(x, *y).is_finite());
     centres[0].iter().any(|x| there(*x))
+}
+
+/// Refuses a formula that has no value at a cell.
+fn has_values(case: &Case, grid: &SurfaceGrid) -> Result<(), CaseError> {
+    let Some([x, y]) = case.profile.undefined_on(grid) else { return Ok(()) };
+    let message = format!(
+        "grid.cells = {:?}: the formula of the profile has no finite value at x = {x:?}, y = {y:?}",
+        case.cells
+    );
+    Err(case.refuse_size(message, "other cells, or a formula with a value everywhere"))
 }
 
 /// Whether a body has a film that the cells are too coarse for.

@@ -1,7 +1,7 @@
 //! Why a run ends without its answer.
 
 use super::checkpoint::Place;
-use crate::case::{Case, WAY_TO_SLIDE, apart};
+use crate::case::{Case, StageControl, WAY_TO_SLIDE, apart};
 use crate::machine::memory::MemoryError;
 use crate::solver::{Carried, SolveError};
 use crate::units::Units;
@@ -207,19 +207,30 @@ pub fn too_thin(case: &Case, place: &Place, reason: &str) -> RunError {
 /// Coefficients from which on contacts of dissimilar bodies wander, and those that come as near to full stick.
 const STICKS: f64 = 100.0;
 
-/// What to try where an increment is not solved, under a coefficient of friction.
-fn way_to_converge(coefficient: f64) -> String {
+/// What to try where an increment is not solved.
+fn way_to_solve(case: &Case, stage: usize) -> String {
+    let coefficient = case.friction.largest();
     if coefficient >= STICKS {
         return format!(
             "a friction.coefficient of {coefficient} stands for full stick, and one of 20 to 50 comes within 1 % of it"
         );
     }
-    "try more increments in this stage, or a larger solver.tolerance".to_owned()
+    let shifts = case.stages[stage].tangential.iter().flatten().any(StageControl::is_motion);
+    let usual = "try more increments in this stage, or a larger solver.tolerance";
+    if case.counts_mean_gap() && shifts {
+        format!(
+            "{usual}; where periodic half-spaces touch everywhere and stick, a shift does not tell the force: a stage with a tangential_force \
+             under which the first cells slip comes before it"
+        )
+    } else {
+        usual.to_owned()
+    }
 }
 
 /// What a solver's error means for increment `increment` of stage `stage` of a case.
 pub fn run_error(error: &SolveError, increment: usize, case: &Case, stage: usize) -> RunError {
-    let (stage, tolerance) = (case.stages[stage].name.clone(), case.tolerance);
+    let (number, tolerance) = (stage, case.tolerance);
+    let stage = case.stages[number].name.clone();
     let unit = |kind: &str| Units::after(case.units.as_ref(), kind, case.dimension());
     match error.clone() {
         SolveError::NotConverged { reached, iterations } => RunError::NotConverged {
@@ -228,7 +239,7 @@ pub fn run_error(error: &SolveError, increment: usize, case: &Case, stage: usize
             reached,
             tolerance,
             iterations,
-            advice: way_to_converge(case.friction.largest()),
+            advice: way_to_solve(case, number),
         },
         SolveError::AboveSliding { asked, bound, by } => {
             let (unit, advice) = (unit("force"), WAY_TO_SLIDE);

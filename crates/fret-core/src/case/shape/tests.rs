@@ -66,7 +66,7 @@ fn every_shape_is_read_as_it_is_written() {
             Shape::Wave { amplitude: 0.5, wavelengths: [None, Some(1.5)] },
         ),
     ] {
-        assert_eq!(shapes(&format!("[profile.{profile}")), [shape.clone()]);
+        assert_eq!(shapes(&format!("[profile.{profile}")), std::slice::from_ref(&shape));
         // in the profile of a body, too; and two are one behind the other
         let both = format!("[upper.profile.{profile}\n[lower.profile.{profile}");
         assert_eq!(shapes(&both), [shape.clone(), shape]);
