@@ -74,7 +74,7 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
             let steps = history.steps.len() as f64;
             let of_run: usize = history.steps.iter().map(|step| step.work.convolutions).sum();
             let passes: usize = history.steps.iter().map(|step| step.work.preconditioner_passes).sum();
-            println!("{cells} x {cells} cells, {steps} increments: {:.4} s", run);
+            println!("{cells} x {cells} cells, {steps} increments: {run:.4} s");
             println!(
                 "{:44} {:>7} {:>7} {:>7} {:>7} {:>7}",
                 "per increment", "linear", "others", "const.", "precon.", "time"

@@ -114,14 +114,17 @@ impl Gathered {
     }
 }
 
-/// Derivatives of the targets by all numbers, and where most cells are about to change their state. `visit` is told every increment.
+/// Derivatives of targets by all numbers, where most cells are about to change their state, and what that took.
+type Found = (Vec<Vec<f64>>, Option<NearEvents>, Work);
+
+/// Derivatives of the targets by all numbers. `visit` is told every increment.
 pub(super) fn backward(
     scene: &Scene<'_>,
     (mut past, steps): (Past, &[Snapshot]),
     parameters: &[Parameter],
     targets: &[Target],
     mut visit: impl FnMut(&Snapshot) -> ControlFlow<()>,
-) -> Result<(Vec<Vec<f64>>, Option<NearEvents>, Work), SensitivityError> {
+) -> Result<Found, SensitivityError> {
     let (cells, stages) = (scene.region.len(), scene.plan.case.stages.len());
     let mut gathered: Vec<Gathered> = targets.iter().map(|_| Gathered::nothing(cells, stages)).collect();
     let mut constants = Constants::new(scene, parameters, targets.len())?;
