@@ -41,8 +41,8 @@ class Identification(Fitted):
     Attributes
     ----------
     constants : dict of str to Constant
-        ``"friction coefficient"``, ``"rig stiffness"`` [force/length], ``"actuator amplitude"`` [length], and the fitted
-        key. Forces of a line contact are those of a unit of its length.
+        ``"friction coefficient"``, ``"rig stiffness"`` [force/length], ``"actuator amplitude"`` [length], and the
+        fitted key. Forces of a line contact are those of a unit of its length.
     cycles : dict of str to ndarray
         Quantities of every cycle: ``cycle``, ``points``, ``dissipated_energy``, ``force_amplitude``,
         ``displacement_amplitude``, ``opening`` (delta_0), ``energy_ratio`` (A), ``sliding_ratio`` (D), the same of the

@@ -75,7 +75,7 @@ def test_what_cannot_be_fitted_is_refused(tmp_path: Path) -> None:
 def test_ways_out_are_those_of_python(tmp_path: Path) -> None:
     """What a message says to write is what the function takes."""
     other = tmp_path / "other.csv"
-    other.write_text(hertz(tmp_path).read_text().replace("depth", "one").replace("force", "two"))
+    other.write_text(hertz(tmp_path).read_text().replace("depth", "one").replace("load", "two"))
     with pytest.raises(ValueError, match=r'columns=\{"depth": ".*", "force": ".*"\}') as refused:
         fretting.identify_indentation(other, case=CASE, fit=YOUNG)
     assert "--" not in str(refused.value)
