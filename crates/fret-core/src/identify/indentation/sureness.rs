@@ -5,7 +5,7 @@
 //! where it is found may matter much where it could be as well. It is held at values farther and farther away, and the others are
 //! fitted anew, as long as the points allow it by the likelihood ratio, `n ln(S/S_least) < q^2` with the sum of squares `S`, as many independent
 //! points `n` as there are by their correlation, and the quantile `q` of the intervals. Those of the others are the union of what
-//! they are on the way.
+//! they are on the way, also behind values that the points do not allow.
 
 use levenberg_marquardt::LeastSquaresProblem;
 use nalgebra::{DMatrix, DVector};
@@ -21,6 +21,8 @@ const PARALLEL: f64 = 0.03;
 const FIRST_STEP: f64 = 0.5;
 /// Steps between the last value that the points allow and the first that they do not.
 const BISECTIONS: usize = 4;
+/// Step of the logarithm behind the first value that the points do not allow.
+const BEHIND: f64 = 1.0;
 /// Steps that are shorter lead nowhere.
 const CLOSE: f64 = 1e-6;
 
@@ -132,6 +134,8 @@ impl<P: Pressing> Fit<'_, P> {
         let (mut near, mut far) = (self.clone(), None);
         let mut step = FIRST_STEP;
         let mut bisections = None;
+        // Behind values that the points do not allow there may be others that they do: a film that is so stiff that it carries as a plate.
+        let mut behind = Vec::new();
         while bisections != Some(BISECTIONS) {
             let from = near.parameters[place];
             let to = (from + direction * step).clamp(-FARTHEST, FARTHEST);
@@ -159,7 +163,12 @@ impl<P: Pressing> Fit<'_, P> {
                 }
                 there => {
                     far = there;
-                    bisections.get_or_insert(0);
+                    if bisections.is_none() {
+                        bisections = Some(0);
+                        let most = (2.0 * FARTHEST / BEHIND) as usize;
+                        let steps = (1..=most).map(|k| to + direction * BEHIND * k as f64);
+                        behind = steps.filter(|at| at.abs() <= FARTHEST).collect();
+                    }
                 }
             }
             if let Some(bisections) = &mut bisections {
@@ -176,6 +185,20 @@ impl<P: Pressing> Fit<'_, P> {
                 let moved = between - self.parameters[other];
                 found.take_in(other, [moved - halves[other], moved + halves[other]]);
             }
+        }
+        for to in behind {
+            let begun = near.histories;
+            let Ok(there) = near.clone().held_at(name, place, to) else { continue };
+            found.histories += there.histories - begun;
+            least = least.min(squares(&there));
+            let Some(sure) = there.sureness(true) else { continue };
+            if away(&there, least) <= most {
+                for &other in told {
+                    let moved = there.parameters[other] - self.parameters[other];
+                    found.take_in(other, [moved - sure.halves[other], moved + sure.halves[other]]);
+                }
+            }
+            near = there;
         }
     }
 }
