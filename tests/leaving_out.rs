@@ -80,7 +80,7 @@ fn leaving_out_changes_the_work_and_not_the_answer() {
                 );
             }
             // The same steps, but for coefficients of other roundings, which may end a Krylov iteration one step later; what it saves
-            // is before them, and timed in `examples/leaving_out.rs`.
+            // is before them, and timed in `tests/examples/leaving_out.rs`.
             Simplification::LayeredResponse => {
                 let steps = [least, more].map(|work| work.convolutions as f64);
                 assert!((steps[0] / steps[1] - 1.0).abs() < 0.02, "{name}: {least:?} {more:?}");

@@ -42,7 +42,7 @@ class Identification(Fitted):
     ----------
     constants : dict of str to Constant
         ``"friction coefficient"``, ``"rig stiffness"`` [force/length], ``"actuator amplitude"`` [length], and the
-        fitted key.
+        fitted key. Forces of a line contact are those of a unit of its length.
     cycles : dict of str to ndarray
         Quantities of every cycle: ``cycle``, ``points``, ``dissipated_energy``, ``force_amplitude``,
         ``displacement_amplitude``, ``opening`` (delta_0), ``energy_ratio`` (A), ``sliding_ratio`` (D), the same of the
@@ -109,7 +109,8 @@ class Identification(Fitted):
 
             axes = plt.subplots()[1]
         units = self._answer["units"]
-        axes.set(xlabel=f"displacement [{units['length']}]", ylabel=f"tangential force [{units['force']}]")
+        force = f"{units['force']}/{units['length']}" if self._answer["line_contact"] else units["force"]
+        axes.set(xlabel=f"displacement [{units['length']}]", ylabel=f"tangential force [{force}]")
         return axes
 
 

@@ -70,3 +70,17 @@ def test_what_cannot_be_fitted_is_refused(tmp_path: Path) -> None:
         fretting.identify_indentation(log, case=CASE, fit=YOUNG, columns={"depth": "time"})
     with pytest.raises(fretting.MissingFileError):
         fretting.identify_indentation(tmp_path / "none.csv", case=CASE, fit=YOUNG)
+
+
+def test_ways_out_are_those_of_python(tmp_path: Path) -> None:
+    """What a message says to write is what the function takes."""
+    other = tmp_path / "other.csv"
+    other.write_text(hertz(tmp_path).read_text().replace("depth", "one").replace("load", "two"))
+    with pytest.raises(ValueError, match=r'columns=\{"depth": ".*", "force": ".*"\}') as refused:
+        fretting.identify_indentation(other, case=CASE, fit=YOUNG)
+    assert "--" not in str(refused.value)
+    with pytest.raises(ValueError, match=r'units=\{"depth": "m"\}') as refused:
+        fretting.identify_indentation(hertz(tmp_path), case=CASE, fit=YOUNG, units={"depth": "kg"})
+    assert "--" not in str(refused.value)
+    with pytest.raises(ValueError, match="fit=nope: the case has no positive number there"):
+        fretting.identify_indentation(hertz(tmp_path), case=CASE, fit="nope")

@@ -107,13 +107,11 @@ impl Estimate {
                         });
                     }
                 }
-                Quantity::ContactArea if dimension == Dimension::Line => row("contact width", &scalar),
-                Quantity::StickArea if dimension == Dimension::Line => row("stick width", &scalar),
-                Quantity::ContactArea => {
-                    row(name(quantity), &scalar);
+                Quantity::ContactArea if dimension == Dimension::Plane => {
+                    row(name(quantity, dimension), &scalar);
                     row("radius of a circle of that area", &|bars| radius(&bars.of(quantity)));
                 }
-                _ => row(name(quantity), &scalar),
+                _ => row(name(quantity, dimension), &scalar),
             }
         }
         let cells = dimension.written(self.cells);

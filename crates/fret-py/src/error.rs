@@ -72,6 +72,8 @@ pub fn stopped(failure: Failure) -> PyErr {
 
 /// What the command's options are called as arguments.
 fn in_arguments(words: &str) -> String {
+    let words =
+        ["columns", "units"].into_iter().fold(words.to_owned(), |words, name| as_mapping(&words, name));
     let pairs = [
         ("choose another folder with --out DIR", "choose another folder"),
         ("--resume --estimate-error", "resume=True and estimate_error=True"),
@@ -80,13 +82,33 @@ fn in_arguments(words: &str) -> String {
         ("--estimate-error", "estimate_error=True"),
         ("the same command without it", "the same call without it"),
         ("--strict", "strict=True"),
-        ("--columns", "columns ="),
-        ("--units", "units ="),
+        ("with --columns", "with columns"),
+        ("with --touch DEPTH", "with touch"),
+        ("--fit ", "fit="),
         ("--cycle ", "cycle="),
         ("--cells with smaller numbers", "smaller numbers of cells"),
         ("--cells", "cells ="),
         ("--from", "start ="),
         ("fret study --help", "help(fretting.study)"),
     ];
-    pairs.into_iter().fold(words.to_owned(), |words, (option, argument)| words.replace(option, argument))
+    pairs.into_iter().fold(words, |words, (option, argument)| words.replace(option, argument))
+}
+
+/// Pairs behind an option as the mapping that its argument is: `--columns "depth=h,force=P"` as `columns={"depth": "h", "force": "P"}`.
+fn as_mapping(words: &str, name: &str) -> String {
+    let option = format!("--{name} \"");
+    let mut parts = words.split(&option);
+    let mut said = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (pairs, rest) = part.split_once('"').unwrap_or((part, ""));
+        let pairs: Vec<String> = pairs
+            .split(',')
+            .map(|pair| {
+                let (key, value) = pair.split_once('=').unwrap_or((pair, "..."));
+                format!("\"{key}\": \"{value}\"")
+            })
+            .collect();
+        said += &format!("{name}={{{}}}{rest}", pairs.join(", "));
+    }
+    said
 }

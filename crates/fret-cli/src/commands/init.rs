@@ -24,10 +24,15 @@ pub fn init(name: Option<&str>, out: Option<&Path>) -> Result<Answer, Failure> {
     let path = out.map_or_else(|| PathBuf::from(format!("{name}.toml")), Path::to_owned);
     let written = write(template, &path)?;
     let record = json!({ "status": "written", "template": name, "files": written });
-    let shown = path.display().to_string();
-    let path = if shown.contains(char::is_whitespace) { format!("\"{shown}\"") } else { shown };
+    let path = in_a_call(&path);
     let next = format!("next: fret check {path}; fret plan {path}; fret run {path}");
     Ok(Answer::new(record, format!("written: {}\n{next}", written.join(", ")), false))
+}
+
+/// A path as a call of the command has it.
+fn in_a_call(path: &Path) -> String {
+    let shown = path.display().to_string();
+    if shown.contains(char::is_whitespace) { format!("\"{shown}\"") } else { shown }
 }
 
 fn list() -> Answer {
@@ -41,7 +46,9 @@ fn list() -> Answer {
 fn write(template: &Template, path: &Path) -> Result<Vec<String>, Failure> {
     let folder = path.parent().unwrap_or_else(|| Path::new(""));
     let beside = template.beside.iter().map(|&(name, content)| (folder.join(name), content));
-    let files: Vec<(PathBuf, &str)> = [(path.to_owned(), template.case)].into_iter().chain(beside).collect();
+    // The commands in its first lines name the file.
+    let case = template.case.replace(" FILE", &format!(" {}", in_a_call(path)));
+    let files: Vec<(PathBuf, &str)> = [(path.to_owned(), case.as_str())].into_iter().chain(beside).collect();
     if let Some((there, _)) = files.iter().find(|(path, _)| path.exists()) {
         let help = if there == path {
             "choose another name with --out FILE, or move it away"

@@ -122,19 +122,18 @@ pub fn studied(
         Failure::Interrupted(kept.to_owned())
     })?;
     let advice = ACCURACIES.map(|accuracy| study.advice(&reference, accuracy));
+    let dimension = plan.case.dimension();
     let choice = words::choice(
         &advice,
         &reference,
         study.resolutions().cells.len() > 1,
         study.resolutions().increments.len() > 1,
-        plan.case.cells[1] as f64 / plan.case.cells[0] as f64,
+        (dimension, plan.case.cells[1] as f64 / plan.case.cells[0] as f64),
     );
     let measured = if table::shows_errors(&lines) {
         let shown = |quantity| table::shows_errors_of(&lines, quantity);
-        [words::measured_by(&reference, &shown), words::without_order(&reference, &shown)]
-            .join("\n")
-            .trim_end()
-            .to_owned()
+        let said = [words::measured_by, words::without_order].map(|of| of(&reference, &shown, dimension));
+        said.join("\n").trim_end().to_owned()
     } else {
         words::NO_ERRORS.to_owned()
     };
@@ -154,9 +153,9 @@ fn resolutions(arguments: &StudyArguments, plan: &Plan) -> Result<Resolutions, F
 /// Refuses a study whose finest level the machine has not the memory for.
 fn fits_memory(resolutions: &Resolutions, plan: &Plan) -> Result<(), Failure> {
     let finest = resolutions.at(resolutions.finest());
-    let [nx, ny] = finest.cells;
     let too_many = |error: &dyn std::fmt::Display| {
-        let message = format!("--cells {nx}: a grid of {nx} x {ny} cells {error}");
+        let cells = plan.grid.dimension().written(finest.cells);
+        let message = format!("--cells {}: a grid of {cells} cells {error}", finest.cells[0]);
         Failure::Call(message, "--cells with smaller numbers".to_owned())
     };
     let planned = finest.planned(plan).map_err(|error| too_many(&error))?;
@@ -226,16 +225,16 @@ fn all_levels(
     let mut unsolved = Vec::new();
     for (number, place) in places.iter().enumerate() {
         let variation = resolutions.at(*place);
-        let [nx, ny] = variation.cells;
+        let cells = plan.case.dimension().written(variation.cells);
         let head = format!(
-            "level {}/{}  {nx} x {ny} cells, {}, tolerance {:.0e}",
+            "level {}/{}  {cells} cells, {}, tolerance {:.0e}",
             number + 1,
             places.len(),
             counted(variation.increments.iter().sum(), "increment"),
             variation.tolerance
         );
         let varied = variation.planned(plan).map_err(|error| {
-            Failure::Call(format!("{nx} x {ny} cells: {error}"), "fret study --help".to_owned())
+            Failure::Call(format!("{cells} cells: {error}"), "fret study --help".to_owned())
         })?;
         if let Some(level) = kept.and_then(|kept| kept.finished(&varied)) {
             say(&format!("{head}: {}, solved before", duration(level.wall_s)));

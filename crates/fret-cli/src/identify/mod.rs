@@ -114,7 +114,9 @@ fn value_of(case_file: &CaseFile, key: &str) -> Result<f64, Failure> {
 fn unknown(key: &str) -> Failure {
     Failure::Call(
         format!("--fit {key}: the case has no positive number there"),
-        "a key such as lower.substrate.young or lower.coatings.0.thickness".to_owned(),
+        "a key such as lower.substrate.young or lower.coatings.0.thickness; a number that is a default, or that another key stands for \
+         (profile.pyramid.indenter for half_angle), is written into the case first"
+            .to_owned(),
     )
 }
 

@@ -119,7 +119,7 @@ pub fn figures(found: &Identification) -> Markup {
         id: None,
     };
     let chart = |what: &str, unit: &str, curves: Vec<Curve>| {
-        let unit = (!unit.is_empty()).then(|| found.units.of(unit));
+        let unit = (!unit.is_empty()).then(|| found.unit_of(unit));
         let axes = [Label { name: "cycle".to_owned(), unit: None }, Label { name: what.to_owned(), unit }];
         let is_drawn = curves.iter().any(|curve| curve.points.iter().any(|point| point[1].is_finite()));
         is_drawn.then(|| Chart::new(&format!("{what} over the cycles"), axes, curves))

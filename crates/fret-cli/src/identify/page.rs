@@ -20,7 +20,8 @@ const NOT_ON_THE_PAGE: [&str; 3] = ["points", "contact_sliding_ratio", "slope_af
 pub fn page(found: &Identification) -> String {
     let title = format!("Fretting loops of {}", found.log);
     let label = |name: &str, unit: &str| Label { name: name.to_owned(), unit: Some(unit.to_owned()) };
-    let axes = [label("displacement", &found.units.length), label("tangential force", &found.units.force)];
+    let axes =
+        [label("displacement", &found.units.length), label("tangential force", &found.unit_of("force"))];
     let content = html! {
         h1 { (title) }
         (constants(found))
@@ -118,7 +119,7 @@ fn rows(found: &Identification) -> Markup {
         .iter()
         .map(|column| {
             let name = column.name.replace('_', " ");
-            if column.unit.is_empty() { name } else { format!("{name} [{}]", found.units.of(column.unit)) }
+            if column.unit.is_empty() { name } else { format!("{name} [{}]", found.unit_of(column.unit)) }
         })
         .collect();
     let every = found.cycles.len().div_ceil(MOST_LOOPS).max(1);

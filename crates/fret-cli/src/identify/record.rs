@@ -16,6 +16,7 @@ pub fn record(found: &Identification) -> Value {
     json!({
         "log": found.log,
         "units": {"length": found.units.length, "force": found.units.force},
+        "line_contact": bool::from(found.dimension),
         "cycle": fitted.name,
         "normal_force": found.normal_force,
         "parameters": found.constants.iter().map(of_constant).collect::<Vec<_>>(),

@@ -25,7 +25,6 @@ const TOLD: [Told; 10] = [
 
 /// What a person reads.
 pub fn summary(found: &Identification) -> String {
-    let units = &found.units;
     let count = found.cycles.len();
     let skipped = found.skipped().count();
     let of = if skipped == 0 { String::new() } else { format!("{} of ", count - skipped) };
@@ -44,7 +43,7 @@ pub fn summary(found: &Identification) -> String {
         let name = &constant.name;
         let [low, high] = constant.interval.map(figure);
         if constant.told {
-            let (value, unit) = (figure(constant.value), units.of(constant.unit));
+            let (value, unit) = (figure(constant.value), found.units.of(constant.unit));
             lines.push(format!("  {name:<22} {value} {unit}   95 %: {low} .. {high}"));
         } else {
             lines.push(format!("  {name:<22} not told by this loop"));
@@ -52,7 +51,9 @@ pub fn summary(found: &Identification) -> String {
     }
     for (words, unit, of) in TOLD {
         if let Some(value) = fitted.quantities.as_ref().and_then(of) {
-            lines.push(format!("  {words:<22} {} {}", figure(value), units.of(unit)).trim_end().to_owned());
+            lines.push(
+                format!("  {words:<22} {} {}", figure(value), found.unit_of(unit)).trim_end().to_owned(),
+            );
         }
     }
     lines.push(format!("  sliding condition      {}", regime(found.regime)));

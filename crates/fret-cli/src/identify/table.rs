@@ -1,7 +1,6 @@
 //! The table of the cycles of a log.
 
 use fret_core::identify::{Cycle, Identification};
-use fret_core::model::Dimension;
 use fret_core::units::Units;
 
 /// A column.
@@ -46,7 +45,7 @@ impl Column {
 pub fn table(found: &Identification) -> String {
     let units = found.has_units.then_some(&found.units);
     let head =
-        COLUMNS.each_ref().map(|column| Units::heading(units, column.name, column.unit, Dimension::Plane));
+        COLUMNS.each_ref().map(|column| Units::heading(units, column.name, column.unit, found.dimension));
     let mut text = head.join(",") + "\n";
     for cycle in &found.cycles {
         let cell = |column: &Column| {

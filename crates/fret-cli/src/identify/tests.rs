@@ -136,3 +136,43 @@ fn keys_of_an_indentation_are_those_of_the_case() {
         assert!(refused.message().contains(words), "{refused:?}");
     }
 }
+
+/// Two equal halves in a line contact of 150 N/mm: units mm and N.
+const LINE: &str = "[units]\nlength = \"mm\"\nforce = \"N\"\n[grid]\ncells = 32\nsize = 0.4\n[upper]\nsubstrate = { young = 210e3, poisson = 0.3 }\n\
+    [lower]\nsubstrate = { young = 210e3, poisson = 0.3 }\n[profile.cylinder]\nradius = 20.0\naxis = \"y\"\n[friction]\ncoefficient = 0.6\n\
+    [rig]\ntangential_stiffness = 2.0e4\n[[load]]\nnormal_force = 150.0\nincrements = 1\n";
+
+/// A parallelogram of gross slip: the plateaus at 0.45 of the normal force, the flanks of 15 kN/mm for a mm of length, 0.02 mm to and fro.
+fn parallelogram(unit: &str) -> String {
+    let (most, limit, slope) = (0.01, 0.45 * 150.0, 15e3);
+    (0..200).fold(format!("displacement [mm],force [{unit}]\n"), |mut log, k| {
+        let along = f64::from(k) / 50.0;
+        let displacement = most * if along < 2.0 { along - 1.0 } else { 3.0 - along };
+        let way = if along < 2.0 { displacement + most } else { most - displacement };
+        let force = (slope * way - limit).min(limit) * if along < 2.0 { 1.0 } else { -1.0 };
+        let _ = writeln!(log, "{displacement:e},{force:e}");
+        log
+    })
+}
+
+/// Forces of a line contact are those of a unit of its length: a log in N/mm is taken, one in N refused, and heads are those of `history.csv`.
+#[test]
+fn forces_of_a_line_contact_are_those_of_a_unit_of_its_length() {
+    let of = |unit: &str| {
+        let beside = Beside { folder: PathBuf::new(), contents: Vec::new() };
+        let case = CaseFile::of_text("case.toml", LINE.to_owned(), beside);
+        identify(("log.csv", parallelogram(unit).as_bytes()), &case, &Request::default())
+    };
+    let refused = of("N").unwrap_err();
+    assert!(refused.message().contains("the case is a line contact"), "{refused:?}");
+    let [plain, kilo] = ["N/mm", "kN/m"].map(|unit| of(unit).unwrap_or_else(|failure| panic!("{failure:?}")));
+    let heads =
+        "cycle,points,dissipated_energy [N],force_amplitude [N/mm],displacement_amplitude [mm],opening [mm],";
+    let (table, text, json) = (plain.table(), plain.text(), plain.json());
+    assert!(table.starts_with(heads) && table.contains("slope_after_reversal [N/mm^2]"), "{table}");
+    assert_eq!(table, kilo.table());
+    let friction = &json["parameters"][0];
+    assert!((friction["value"].as_f64().unwrap() / 0.45 - 1.0).abs() < 0.01, "{json}");
+    assert_eq!(json["parameters"][1]["unit"], "force/length^2");
+    assert!(text.contains("N/mm^2   95 %") && plain.page().contains("tangential force [N/mm]"), "{text}");
+}

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
+use fret_core::model::Dimension;
 use fret_core::study::{Kind, Source};
 use maud::{Markup, html};
 
@@ -48,8 +49,15 @@ pub fn page(folder: &Path) -> Result<(String, usize), Failure> {
     Ok((whole_page(&title, &content), levels))
 }
 
+/// The name of a quantity, as a person reads it: a line contact has widths in place of areas.
+fn in_words(name: &str, dimension: Dimension) -> String {
+    name.replace("area", dimension.area()).replace('_', " ")
+}
+
 /// What the error of each quantity is measured by.
 fn measured_by(study: &StudyRecord) -> Markup {
+    let level = study.lines.iter().flat_map(|line| &line.levels).next();
+    let dimension = level.map_or(Dimension::Plane, |level| Dimension::of(level.cells));
     let row = |(name, source): (&String, &Option<Source>)| {
         let [reference, _] = study.references.get(name)?.last().copied()??;
         let by = match (source, &study.closed_form) {
@@ -60,7 +68,7 @@ fn measured_by(study: &StudyRecord) -> Markup {
             (Some(Source::Finest), _) => "finest".to_owned(),
             (None, _) => "–".to_owned(),
         };
-        Some(vec![name.replace('_', " "), super::html::number(reference), by])
+        Some(vec![in_words(name, dimension), super::html::number(reference), by])
     };
     let rows: Vec<Vec<String>> = study.measured_by.iter().filter_map(row).collect();
     html! { @if !rows.is_empty() { (table(&["quantity", "reference at the end", "errors against"], &rows)) } }
@@ -121,11 +129,11 @@ fn refined(line: &LineRecord) -> Markup {
 
 fn rows(levels: &[LevelRecord], names: &[&str]) -> Markup {
     let mut head = ["cells", "increments", "tolerance", "time [s]"].map(str::to_owned).to_vec();
-    head.extend(names.iter().flat_map(|name| [name.replace('_', " "), "order".to_owned()]));
+    let dimension = levels.first().map_or(Dimension::Plane, |level| Dimension::of(level.cells));
+    head.extend(names.iter().flat_map(|name| [in_words(name, dimension), "order".to_owned()]));
     let row = |level: &LevelRecord| {
-        let [nx, ny] = level.cells;
         let mut row = vec![
-            format!("{nx} x {ny}"),
+            Dimension::of(level.cells).written(level.cells),
             increments(&level.increments),
             format!("{:.0e}", level.tolerance),
             format!("{:.3}", level.wall_s),
@@ -146,11 +154,23 @@ fn unsolved(levels: &[UnsolvedRecord]) -> Markup {
         @if !levels.is_empty() {
             (chapter("Levels that were not solved", &html! {
                 ul class="out" {
-                    @for UnsolvedRecord { cells: [nx, ny], increments: counts, message } in levels {
-                        li { (nx) " x " (ny) " cells, " (increments(counts)) " increments: " (message) }
+                    @for UnsolvedRecord { cells, increments: counts, message } in levels {
+                        li { (Dimension::of(*cells).written(*cells)) " cells, " (increments(counts)) " increments: " (message) }
                     }
                 }
             }))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_contact_has_widths_and_cells_along_x() {
+        assert_eq!(in_words("contact_area", Dimension::Plane), "contact area");
+        assert_eq!(in_words("stick_area", Dimension::Line), "stick width");
+        assert_eq!(in_words("max_pressure", Dimension::Line), "max pressure");
     }
 }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use fret_core::model::Dimension;
 use fret_core::study::{Convergence, Errors, Form, Judged, Kind, Line, Quantity, Reference, RefinementStudy};
 
 use crate::study::words::name;
@@ -60,7 +61,11 @@ pub fn table(study: &RefinementStudy, lines: &[Line], reference: &Reference) -> 
         let quantity = Quantity::ALL.get(column);
         quantity.is_some_and(|quantity| reference.convergence(*quantity) != Convergence::Observed)
     };
-    let mut names: Vec<&str> = Quantity::ALL.into_iter().map(name).collect();
+    let levels = lines.iter().flat_map(|line| &line.levels);
+    let cells =
+        levels.filter_map(|judged| study.level(judged.place)).map(|level| level.variation.cells).next();
+    let dimension = cells.map_or(Dimension::Plane, Dimension::of);
+    let mut names: Vec<&str> = Quantity::ALL.into_iter().map(|quantity| name(quantity, dimension)).collect();
     names.extend(["pressure L2", "shear L2"]);
     let known: Vec<usize> = (0..names.len())
         .filter(|column| {
@@ -81,12 +86,11 @@ pub fn table(study: &RefinementStudy, lines: &[Line], reference: &Reference) -> 
         table.push('\n');
         for (row, judged) in line.levels.iter().enumerate() {
             let Some(level) = study.level(judged.place) else { continue };
-            let [nx, ny] = level.variation.cells;
             let _ = write!(
                 table,
                 "{} {:<10}{:>11}{:>10.0e}{:>10.3}{:>13}",
                 if judged.is_efficient[Form::Between as usize] { '*' } else { ' ' },
-                format!("{nx} x {ny}"),
+                dimension.written(level.variation.cells),
                 increments(&level.variation.increments),
                 level.variation.tolerance,
                 level.wall_s,

@@ -1,5 +1,6 @@
 //! What a study says in words: what it was compared with, and what to choose.
 
+use fret_core::model::Dimension;
 use fret_core::study::{Advice, Convergence, Quantity, Reference, Source};
 
 /// Why a study shows no errors.
@@ -7,19 +8,21 @@ pub const NO_ERRORS: &str = "no errors: no closed form is available for this cas
                              with a finer one; give more levels, as in --cells 32,64,128, or numbers with --against FILE";
 
 /// A quantity of interest in words.
-pub fn name(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::MaxPressure => "max pressure",
-        Quantity::Approach => "approach",
-        Quantity::ContactArea => "contact area",
-        Quantity::StickArea => "stick area",
-        Quantity::Shift => "shift",
-        Quantity::DissipatedEnergy => "dissipated energy",
+pub fn name(quantity: Quantity, dimension: Dimension) -> &'static str {
+    match (quantity, dimension) {
+        (Quantity::MaxPressure, _) => "max pressure",
+        (Quantity::Approach, _) => "approach",
+        (Quantity::ContactArea, Dimension::Plane) => "contact area",
+        (Quantity::ContactArea, Dimension::Line) => "contact width",
+        (Quantity::StickArea, Dimension::Plane) => "stick area",
+        (Quantity::StickArea, Dimension::Line) => "stick width",
+        (Quantity::Shift, _) => "shift",
+        (Quantity::DissipatedEnergy, _) => "dissipated energy",
     }
 }
 
 /// What the quantities are compared with, one sentence per source; those whose errors are shown.
-pub fn measured_by(reference: &Reference, shown: &dyn Fn(Quantity) -> bool) -> String {
+pub fn measured_by(reference: &Reference, shown: &dyn Fn(Quantity) -> bool, dimension: Dimension) -> String {
     let form = reference.form().map_or("", |form| form.name());
     let sources = [
         (Source::ClosedForm, format!("the closed form ({form})")),
@@ -31,7 +34,7 @@ pub fn measured_by(reference: &Reference, shown: &dyn Fn(Quantity) -> bool) -> S
         let numbers: Vec<&str> = Quantity::ALL
             .into_iter()
             .filter(|quantity| reference.source(*quantity) == Some(source) && shown(*quantity))
-            .map(name)
+            .map(|quantity| name(quantity, dimension))
             .collect();
         (!numbers.is_empty()).then(|| format!("{} compared with {words}", numbers.join(", ")))
     });
@@ -39,13 +42,18 @@ pub fn measured_by(reference: &Reference, shown: &dyn Fn(Quantity) -> bool) -> S
 }
 
 /// Which quantities, of those whose errors are shown, have no observed order, and why; a sentence each, none where all have one.
-pub fn without_order(reference: &Reference, shown: &dyn Fn(Quantity) -> bool) -> String {
+pub fn without_order(
+    reference: &Reference,
+    shown: &dyn Fn(Quantity) -> bool,
+    dimension: Dimension,
+) -> String {
     let of = |convergence: Convergence| {
         let is_one = |quantity: &Quantity| {
             let is_told = convergence == Convergence::NoLimit || shown(*quantity);
             reference.convergence(*quantity) == convergence && is_told
         };
-        let names: Vec<&str> = Quantity::ALL.into_iter().filter(is_one).map(name).collect();
+        let names: Vec<&str> =
+            Quantity::ALL.into_iter().filter(is_one).map(|quantity| name(quantity, dimension)).collect();
         (!names.is_empty()).then(|| names.join(", "))
     };
     let mut said = Vec::new();
@@ -75,13 +83,13 @@ pub fn choice(
     reference: &Reference,
     cells: bool,
     increments: bool,
-    ny_over_nx: f64,
+    (dimension, ny_over_nx): (Dimension, f64),
 ) -> String {
     let each = advice.iter().map(|advice| {
         let percent = format!("for {} % ", 100.0 * advice.accuracy);
         let grid = advice.cells.map(|nx| {
             let ny = (nx as f64 * ny_over_nx).round().max(1.0) as usize;
-            if ny == 1 { format!("{nx} cells") } else { format!("{nx} x {ny} cells") }
+            format!("{} cells", dimension.written([nx, ny]))
         });
         let steps = advice.increments.map(|count| format!("{count} increments per stage or cycle"));
         let chosen: Vec<String> = [(cells, grid, "cells"), (increments, steps, "increments")]
@@ -102,7 +110,8 @@ pub fn choice(
             }
         };
         let names = |wanted| {
-            Quantity::ALL.into_iter().filter(is_one(wanted)).map(name).collect::<Vec<_>>().join(", ")
+            let all = Quantity::ALL.into_iter().filter(is_one(wanted));
+            all.map(|quantity| name(quantity, dimension)).collect::<Vec<_>>().join(", ")
         };
         let mut why = String::new();
         let [unbounded, outside] = [Convergence::NoLimit, Convergence::NotAsymptotic].map(names);

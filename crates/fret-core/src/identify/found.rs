@@ -185,10 +185,11 @@ impl Fit<'_> {
         let mut notes = Vec::new();
         if sure.correlation > 0.0 {
             let points = self.cycle.force.len() as f64;
+            let independent = (points * (1.0 - sure.correlation) / (1.0 + sure.correlation)).max(1.0);
             notes.push(format!(
-                "neighbouring points are correlated ({:.2}), as those of a filtered signal are, or the computed loop has another shape: the intervals are those of {:.0} independent points in place of {points}",
+                "neighbouring points are correlated ({:.2}), as those of a filtered signal are, or the computed loop has another shape: the intervals are those of {independent:.0} independent point{} in place of {points}",
                 sure.correlation,
-                (points * (1.0 - sure.correlation) / (1.0 + sure.correlation)).max(1.0)
+                if independent < 1.5 { "" } else { "s" }
             ));
         }
         if self.bend_is_fitted {

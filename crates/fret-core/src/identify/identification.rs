@@ -3,6 +3,7 @@
 use crate::case::Case;
 use crate::history::{CycleRegime, SLIDING_ENERGY_RATIO};
 use crate::measured::scales;
+use crate::model::Dimension;
 use crate::units::Units;
 
 use super::cycles::{self, MeasuredCycle};
@@ -17,7 +18,7 @@ use super::model::Model;
 use super::quantities::{Known, Quantities};
 use super::request::{Key, Request};
 
-/// What a log tells; lengths and forces in the units of the case.
+/// What a log tells; lengths and forces in the units of the case, forces and energies of a line contact those of a unit of its length.
 #[derive(Debug, Clone)]
 pub struct Identification {
     /// The name of the log.
@@ -26,6 +27,8 @@ pub struct Identification {
     pub units: Units,
     /// Whether the case or the log names units.
     pub has_units: bool,
+    /// Whether the case has areas in contact, or is a line contact.
+    pub dimension: Dimension,
     /// Place of the fitted cycle among the cycles.
     pub fitted: usize,
     /// Normal force of the case [force].
@@ -89,7 +92,8 @@ pub fn identify(
     let asked = request.beside(&case.log_columns);
     let table = log::read(name, bytes, &asked, request.strict)?;
     let mut notes = Vec::new();
-    let scale = scales(&table, (&log::ROLES, &asked), case.units.as_ref(), &mut notes)?;
+    let dimension = case.dimension();
+    let scale = scales(&table, (&log::ROLES, &asked), (case.units.as_ref(), dimension), &mut notes)?;
     let has_units =
         case.units.is_some() || table.columns.iter().flatten().any(|column| column.unit.is_some());
     if !table.heads.is_empty() {
@@ -134,13 +138,18 @@ pub fn identify(
             Cycle { measured, quantities }
         })
         .collect();
-    let Fitted { constants, normal_force, noise, removed, contact_stiffness, slides, computed, .. } = found;
+    let Fitted { mut constants, normal_force, noise, removed, contact_stiffness, slides, computed, .. } =
+        found;
+    for constant in &mut constants {
+        constant.unit = dimension.kind(constant.unit);
+    }
     notes.extend(found.notes);
     let [displacement_offset, displacement_drift, displacement_bend, force_offset] = removed;
     Ok(Identification {
         log: name.to_owned(),
         units,
         has_units,
+        dimension,
         fitted: place,
         normal_force,
         constants,
@@ -172,6 +181,11 @@ fn regime(energy_ratio: f64, slides: bool) -> CycleRegime {
 }
 
 impl Identification {
+    /// The unit of a kind of quantity, in the words of [`Units::of`].
+    pub fn unit_of(&self, kind: &str) -> String {
+        self.units.of(self.dimension.kind(kind))
+    }
+
     /// The cycle that was fitted.
     pub fn fitted_cycle(&self) -> &Cycle {
         &self.cycles[self.fitted]

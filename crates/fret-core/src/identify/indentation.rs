@@ -4,37 +4,32 @@
 //! knows, and the compliance of its frame. Intervals are those of `intervals`: linear about the solution, with noise of load and depth and the
 //! correlation of neighbours; the error of the grid is not in them.
 
+mod feet;
 mod fit;
 mod indenter;
 mod load_curve;
 mod log;
+mod notes;
 mod request;
+mod scaling;
 mod start;
+mod sureness;
 #[cfg(test)]
 mod tests;
 
 use super::error::{IdentifyError, refused};
-use super::found::{Constant, TOLD};
-use super::intervals::Sureness;
-use super::turns::noise as from_row_to_row;
+use super::found::Constant;
 use crate::case::Case;
 use crate::units::Units;
-use fit::{FARTHEST, FARTHEST_TOUCH, Fit, Known, fit};
+use fit::{FARTHEST, Fit, Known, fit};
 use indenter::{Indenter, Pressing};
 use log::Curves;
+use notes::{LOST, note_of_grid, note_of_zero, notes_of_bounds, notes_of_residuals};
 pub use request::{IndentationRequest, Numbers, Part};
+use sureness::Sides;
 
 /// Points of the computed curve.
 const POINTS_OF_CURVE: usize = 60;
-/// Loading and unloading differ from so many standard deviations of their difference and this part of the largest load on.
-const DIFFER: (f64, f64) = (4.0, 0.005);
-/// A load below zero of more than this part of the largest is adhesion.
-const PULLS: f64 = 0.03;
-/// Points lie off the curve by more than noise from this part of the largest load on.
-const OFF: f64 = 0.05;
-/// From this part on the curve is another one, and tells nothing.
-const LOST: f64 = 0.2;
-
 /// What an indentation tells; lengths and forces in the units of the case.
 #[derive(Debug, Clone)]
 pub struct Indentation {
@@ -98,7 +93,7 @@ pub fn indentation(
     }
     let curves = Curves::read((name, bytes), case.units.as_ref(), request)?;
     let touch = request.touch.map(|touch| curves.sign * touch);
-    let known = Known { touch, frame: case.springs().normal, fits_frame: request.frame };
+    let known = Known { touch, frame: case.springs().normal, fits_frame: request.frame, sign: curves.sign };
     let indenter = Indenter::new(case, numbers)?;
     let start: Vec<f64> = numbers.keys.iter().map(|(_, value)| *value).collect();
     let mut fit = fit(name, indenter, &start, [&curves.depths, &curves.loads], known)?;
@@ -114,7 +109,8 @@ pub fn indentation(
     let mut found = answer(&fit, &curves, &names, (units, has_units))?;
     found.part = request.part;
     found.grid = coarser.map(|moved| in_units(&fit, moved.as_slice(), curves.sign));
-    found.notes.extend(notes_of_grid(&found));
+    let by_grid = found.grid.as_deref().and_then(|grid| note_of_grid(&found.constants, grid));
+    found.notes.extend(by_grid);
     found.notes.extend(notes);
     Ok(found)
 }
@@ -134,7 +130,7 @@ pub(super) fn answer<P: Pressing>(
             "fit fewer numbers, or compare bodies, profile and units of the case with those of the test",
         )
     };
-    let sure = fit.sureness().ok_or_else(lost)?;
+    let sure = fit.sureness(false).ok_or_else(lost)?;
     let (touch, frame) = (fit.touch(), fit.frame());
     let point = |(depth, load): (&f64, &f64)| {
         let seen = fit.seen(*depth)?;
@@ -149,7 +145,6 @@ pub(super) fn answer<P: Pressing>(
     if !noise.is_finite() {
         return Err(lost());
     }
-    let mut constants = constants(fit, &sure, names, curves.sign);
     let mut notes = curves.notes.clone();
     notes.extend(notes_of_bounds(fit, names));
     // Where numbers act as one, the grid follows what nothing holds.
@@ -163,7 +158,12 @@ pub(super) fn answer<P: Pressing>(
     } else if wanders {
         notes.push("the contact of the fitted numbers left each grid that was made for it: nothing is told; start from values nearer to those fitted, or fit fewer numbers".to_owned());
     }
-    let is_lost = noise > LOST || wanders || touch_is_bound;
+    let zero = note_of_zero(curves, most);
+    let is_lost = noise > LOST || wanders || touch_is_bound || zero.is_some();
+    notes.extend(zero);
+    let linear = Sides::linear(&sure);
+    let sides = if is_lost { linear } else { fit.sides(&curves.name, linear, sure.correlation) };
+    let mut constants = constants(fit, &sides, names, curves.sign);
     for constant in &mut constants {
         constant.told &= !is_lost;
     }
@@ -174,6 +174,16 @@ pub(super) fn answer<P: Pressing>(
         notes.push(format!(
             "the curve does not tell {}: it hardly changes with it, or changes in the same way with something else that is fitted",
             shaky.join(", ")
+        ));
+    }
+    let held: Vec<&str> =
+        constants.iter().filter(|constant| constant.told).map(|constant| constant.name.as_str()).collect();
+    if !sides.beside.is_empty() && !held.is_empty() {
+        let beside: Vec<&str> = sides.beside.iter().map(|place| names[*place]).collect();
+        notes.push(format!(
+            "{}: the interval holds for all values of {} that the points allow, by fits with that held",
+            held.join(", "),
+            beside.join(", ")
         ));
     }
     if !fit.stands && !is_lost {
@@ -197,7 +207,7 @@ pub(super) fn answer<P: Pressing>(
         frame,
         noise,
         correlation: sure.correlation,
-        histories: fit.histories,
+        histories: fit.histories + sides.histories,
         points,
         lines: curves.lines.clone(),
         computed,
@@ -208,49 +218,31 @@ pub(super) fn answer<P: Pressing>(
 }
 
 /// The constants with their intervals.
-fn constants<P: Pressing>(fit: &Fit<'_, P>, sure: &Sureness, names: &[&str], sign: f64) -> Vec<Constant> {
+fn constants<P: Pressing>(fit: &Fit<'_, P>, sides: &Sides, names: &[&str], sign: f64) -> Vec<Constant> {
     let [length, force] = fit.units;
+    let told = |place: usize| sides.tell(place) && !fit.is_bound(place);
     let number = |(k, (name, value)): (usize, (&&str, f64))| {
-        let half = sure.halves[k];
+        let [below, above] = sides.of[k].map(|side| side.min(FARTHEST));
         Constant {
             name: (*name).to_owned(),
             unit: unit_of(name),
             value,
-            interval: [value * (-half.min(FARTHEST)).exp(), value * half.min(FARTHEST).exp()],
-            told: half < TOLD && !fit.is_bound(k),
+            interval: [value * (-below).exp(), value * above.exp()],
+            told: told(k),
         }
     };
     let mut found: Vec<Constant> = names.iter().zip(fit.values()).enumerate().map(number).collect();
-    let mut linear = |name: &str, unit, value: f64, place: Option<usize>, scale: f64| {
+    let mut linear = |name: &str, unit, value: f64, place: Option<usize>, scale: f64, sign: f64| {
         let Some(place) = place else { return };
-        let half = sure.halves[place];
         // Of a curve of which nothing bounds it: as far as it may be.
-        let apart = half.min(1e3) * scale;
-        let interval = [value - apart, value + apart];
-        let is_bound = fit.is_bound(place);
-        found.push(Constant { name: name.to_owned(), unit, value, interval, told: half < TOLD && !is_bound });
+        let [below, above] = sides.of[place].map(|side| side.min(1e3) * scale);
+        let [below, above] = if sign < 0.0 { [above, below] } else { [below, above] };
+        let interval = [value - below, value + above];
+        found.push(Constant { name: name.to_owned(), unit, value, interval, told: told(place) });
     };
-    linear("depth at first touch", "length", sign * fit.touch(), fit.place_of_touch(), length);
-    linear("frame compliance", "length/force", fit.frame(), fit.place_of_frame(), length / force);
+    linear("depth at first touch", "length", sign * fit.touch(), fit.place_of_touch(), length, sign);
+    linear("frame compliance", "length/force", fit.frame(), fit.place_of_frame(), length / force, 1.0);
     found
-}
-
-/// Parameters that went as far as they may: the points do not bound them.
-fn notes_of_bounds<P: Pressing>(fit: &Fit<'_, P>, names: &[&str]) -> Vec<String> {
-    let note = |k: usize| {
-        match names.get(k) {
-        Some(name) => {
-            format!("{name} went as far from its start as it may, a factor of {:.0}: not told", FARTHEST.exp())
-        }
-        None if fit.place_of_touch() == Some(k) => {
-            format!(
-                "the depth at first touch went {FARTHEST_TOUCH} ranges of the depth away from where the points let it be guessed: nothing is told; is the load counted from zero?"
-            )
-        }
-        None => "the frame compliance would be negative: it is held at zero and not told; the other numbers are those of a rigid frame".to_owned(),
-    }
-    };
-    (0..fit.parameters.len()).filter(|k| fit.is_bound(*k)).map(note).collect()
 }
 
 /// Changes of the parameters of a fit as those of its constants.
@@ -265,22 +257,6 @@ fn in_units<P: Pressing>(fit: &Fit<'_, P>, moved: &[f64], sign: f64) -> Vec<f64>
     moved.iter().enumerate().map(change).collect()
 }
 
-/// Constants that the grid moves by more than what noise leaves open.
-fn notes_of_grid(found: &Indentation) -> Option<String> {
-    let grid = found.grid.as_ref()?;
-    let moved = |(constant, moved): (&Constant, &f64)| {
-        let [low, high] = constant.interval;
-        (constant.told && 2.0 * moved.abs() > high - low).then(|| constant.name.clone())
-    };
-    let names: Vec<String> = found.constants.iter().zip(grid).filter_map(moved).collect();
-    (!names.is_empty()).then(|| {
-        format!(
-            "with half of the cells along each side {} would lie outside of the interval: the grid matters more than the noise; more cells would tell",
-            names.join(", ")
-        )
-    })
-}
-
 /// The unit of a number of a case by the end of its path, in the words of [`Units::of`].
 fn unit_of(path: &str) -> &'static str {
     let is_key = |part: &&str| part.trim_end_matches(']').parse::<usize>().is_err();
@@ -290,52 +266,4 @@ fn unit_of(path: &str) -> &'static str {
         Some("normal_stiffness" | "shear_stiffness") => "pressure/length",
         _ => "",
     }
-}
-
-/// What the residuals tell.
-fn notes_of_residuals(
-    curves: &Curves,
-    points: &[[f64; 3]],
-    (noise, correlation): (f64, f64),
-    most: f64,
-) -> Vec<String> {
-    let mut notes = Vec::new();
-    let count = points.len() as f64;
-    let independent = (count * (1.0 - correlation) / (1.0 + correlation)).max(1.0);
-    if correlation > 0.0 {
-        notes.push(format!(
-            "the residuals of neighbouring points are correlated ({correlation:.2}), as those of a filtered signal are, or the computed curve has another shape: the intervals are those of {independent:.0} independent point{} in place of {count}",
-            if independent < 1.5 { "" } else { "s" }
-        ));
-    }
-    let top = curves.top;
-    let off: Vec<f64> = points.iter().map(|[_, load, computed]| (load - computed) / most).collect();
-    let mean = |rows: &[f64]| rows.iter().sum::<f64>() / rows.len() as f64;
-    let (loading, unloading) = off.split_at(top.min(off.len()));
-    if loading.len() > 5 && unloading.len() > 5 {
-        let apart = mean(loading) - mean(unloading);
-        // By the noise from row to row: that about the curve has the difference in it.
-        let chance =
-            from_row_to_row(&off, 0.0) * (1.0 / loading.len() as f64 + 1.0 / unloading.len() as f64).sqrt();
-        if apart > (DIFFER.0 * chance).max(DIFFER.1) {
-            notes.push(format!(
-                "loading lies above unloading by {:.1} % of the largest load in the mean: the test is not elastic (plastic, viscous, or it drifts), and the model is; fit one part alone (loading or unloading), or a test with less load",
-                100.0 * apart
-            ));
-        }
-    }
-    let lowest = points.iter().fold(0.0_f64, |low, point| low.min(point[1])) / most;
-    if lowest < -PULLS.max(4.0 * noise) {
-        notes.push(format!(
-            "the load falls to {:.1} % of the largest: adhesion, or a load that is not counted from zero, of which the model knows nothing",
-            100.0 * lowest
-        ));
-    }
-    if noise > OFF && noise <= LOST {
-        notes.push(format!(
-            "the points lie {:.0} % of the largest load off the curve: more than noise; the case describes another contact",
-            100.0 * noise
-        ));
-    }
-    notes
 }

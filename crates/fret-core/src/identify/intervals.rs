@@ -69,8 +69,7 @@ pub fn sureness(left: &Left<'_>) -> Option<Sureness> {
     let (column, unsure) = &left.bend;
     let by_bend = &inverse * left.jacobian.transpose() * column;
     let points = count as f64 * (1.0 - correlation) / (1.0 + correlation);
-    let quantile = StudentsT::new(0.0, 1.0, (points - constants as f64).max(3.0))
-        .map_or(1.96, |law| law.inverse_cdf(0.975));
+    let quantile = quantile(points - constants as f64);
     let half = |k: usize, unsure: f64| {
         let variance = straight[(k, k)].max(of_equal[(k, k)]).max(0.0);
         let half = quantile * (variance + (unsure * by_bend[k]).powi(2)).sqrt();
@@ -81,6 +80,11 @@ pub fn sureness(left: &Left<'_>) -> Option<Sureness> {
         halves_of_straight: (0..constants).map(|k| half(k, 0.0)).collect(),
         correlation,
     })
+}
+
+/// So many standard deviations are half of a 95 % interval, with so many independent points more than constants.
+pub fn quantile(freedom: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, freedom.max(3.0)).map_or(1.96, |law| law.inverse_cdf(0.975))
 }
 
 /// `(J^T J)^-1` in the directions that the points tell, by singular values; and which constants have a part in one that they do not.

@@ -148,6 +148,7 @@ mod tests {
             (with("1e-6,abc"), "line 9, column \"force\": \"abc\" is not a number"),
             (with("1e-6,"), "line 9: nothing stands in column \"force\""),
             (with("1e-6"), "line 9: nothing stands in column \"force\""),
+            (with(","), "line 9: nothing stands in column \"displacement\""),
             (rows("time,force\n", |k| format!("{k},{k}")), "no line names the columns"),
             (
                 rows("displacement,force\n", |k| format!("{k},3.5")),
@@ -158,5 +159,18 @@ mod tests {
         ] {
             assert!(message(&text).contains(words), "{}: expected {words}", message(&text));
         }
+    }
+
+    /// Cells without anything are a row that lacks its numbers, where numbers stand above and below; not at the ends of a block.
+    #[test]
+    fn rows_of_empty_cells_are_named() {
+        let plain = rows("displacement,force\n,\n", |k| format!("{k}e-6,{k}"));
+        let ended = plain.clone() + ",\n,\n";
+        assert_eq!((message(&plain), message(&ended)), (String::new(), String::new()));
+        let holed = ended.replace("\n7e-6,7\n", "\n,\n\n7e-6,7\n");
+        let table = read("log.csv", holed.as_bytes(), &Asked::default(), false).unwrap();
+        let bad: Vec<&str> = table.bad.iter().map(|row| row.what.as_str()).collect();
+        assert_eq!(bad, ["line 10: nothing stands in column \"displacement\""]);
+        assert_eq!(table.lines.len(), 20);
     }
 }

@@ -5,7 +5,7 @@
 //! `cycles` (which are whole), `direction`, `drift`; `computed` (a loop between its points), `model` (the loop that the solver computes),
 //! `flanks`, `quantities` (what is read from a cycle); `start`, `intervals`, `fit` (least squares), `found`; the answer in
 //! `identification`. Beside it, for numbers of a case from load over depth, `indentation`: `request`; `load_curve`, `indenter` (the curve that the
-//! solver computes), `log` (which rows are fitted), `start`, `fit`; the answer in `indentation` itself.
+//! solver computes), `log` (which rows are fitted), `start`, `fit` with `feet`, `scaling` and `sureness`, `notes`; the answer in `indentation` itself.
 
 mod computed;
 mod cycles;

@@ -1,5 +1,7 @@
 //! What the columns of a measured table can hold.
 
+use crate::model::Dimension;
+
 /// What the unit of a column is one of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
@@ -7,17 +9,18 @@ pub enum Kind {
     Number,
     /// Lengths.
     Length,
-    /// Forces; or masses, whose weights they are.
+    /// Forces, of a line contact those of a unit of its length; or masses, whose weights they are.
     Force,
 }
 
 impl Kind {
-    /// What it is called, and the unit of a case that declares none; `None` of numbers.
-    pub fn unit(self) -> Option<(&'static str, &'static str)> {
-        match self {
-            Self::Number => None,
-            Self::Length => Some(("length", "m")),
-            Self::Force => Some(("force", "N")),
+    /// What it is called, in the words of [`crate::units::Units::of`], and the unit of a case that declares none; `None` of numbers.
+    pub fn unit(self, dimension: Dimension) -> Option<(&'static str, &'static str)> {
+        match (self, dimension) {
+            (Self::Number, _) => None,
+            (Self::Length, _) => Some(("length", "m")),
+            (Self::Force, Dimension::Plane) => Some(("force", "N")),
+            (Self::Force, Dimension::Line) => Some(("force/length", "N/m")),
         }
     }
 }

@@ -90,16 +90,20 @@ pub fn read(
         .flexible(true)
         .trim(csv::Trim::All)
         .from_reader(below.as_bytes());
-    let mut rows = Rows { head: &head, table, between: Vec::new() };
+    let mut rows = Rows { head: &head, table, between: Vec::new(), empty: 0 };
     for row in reader.records() {
         let row = row.map_err(|error| refused(name, &format!("not readable as CSV: {error}"), ""))?;
         let line = head.above + row.position().map_or(0, |place| place.line() as usize);
-        if !row.iter().all(str::is_empty) {
+        if row.iter().any(|cell| !cell.is_empty()) {
             rows.take(&row, line)?;
+        } else if row.len() > 1 {
+            rows.take_empty(line);
         }
     }
-    let Rows { mut table, between, .. } = rows;
-    table.bad.extend(between);
+    let Rows { mut table, between, empty, .. } = rows;
+    // Cells without anything below the last number are the rest of a spreadsheet.
+    let rows_below = between.len() - empty;
+    table.bad.extend(between.into_iter().take(rows_below));
     if let (Some(first), true) = (table.bad.first(), strict || table.bad.len() > table.lines.len()) {
         let all = match table.bad.len() {
             1 => String::new(),
@@ -116,6 +120,8 @@ struct Rows<'a> {
     table: Table,
     /// Lines without any number, which belong to a head that may follow.
     between: Vec<BadRow>,
+    /// How many of the last of them have nothing in any cell.
+    empty: usize,
 }
 
 impl Rows<'_> {
@@ -130,6 +136,7 @@ impl Rows<'_> {
             .collect();
         let values: Option<Vec<f64>> =
             cells.iter().map(|(_, cell)| number(cell, decimal_comma).ok()).collect();
+        self.empty = 0;
         if let Some(values) = values {
             self.table.bad.append(&mut self.between);
             for ((role, _), value) in cells.iter().zip(values) {
@@ -175,6 +182,15 @@ impl Rows<'_> {
             self.between.push(bad);
         }
         Ok(())
+    }
+
+    /// A row of cells without anything: a hole where numbers stand above it and below.
+    fn take_empty(&mut self, line: usize) {
+        let begins = self.table.heads.last().copied().unwrap_or_default();
+        if self.table.lines.last().is_some_and(|last| *last > begins) {
+            self.between.push(self.bad_row(&[], line));
+            self.empty += 1;
+        }
     }
 
     /// What is wrong with a row.

@@ -1,6 +1,7 @@
 //! Heights along a line, as a profilometer writes them.
 
 use crate::measured::{self, Kind, MeasuredError, Role, refused, scales};
+use crate::model::Dimension;
 use crate::units::Units;
 
 /// Position along the line, and height there.
@@ -68,7 +69,7 @@ pub fn read(
 ) -> Result<Measured, MeasuredError> {
     let table = measured::read((name, bytes), (&ROLES, "line of heights"), asked, true)?;
     let mut notes = Vec::new();
-    let scale = scales(&table, (&ROLES, asked), units, &mut notes)?;
+    let scale = scales(&table, (&ROLES, asked), (units, Dimension::Plane), &mut notes)?;
     if table.lines.len() < FEWEST_POINTS {
         let what = format!("{} points: a scar needs at least {FEWEST_POINTS}", table.lines.len());
         return Err(refused(name, &what, "some hundred points serve well"));

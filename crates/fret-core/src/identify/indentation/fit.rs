@@ -13,10 +13,9 @@ use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
 
 use super::super::error::{IdentifyError, refused};
-use super::super::intervals::{Left, Sureness, sureness};
 use super::super::turns::range;
 use super::indenter::Pressing;
-use super::load_curve::{Curve, Seen};
+use super::load_curve::{Curve, Foot, Seen};
 use super::start::{SPHERE, first_touch, noises};
 
 /// The touch does not go farther than this from its guess, over the range of depths.
@@ -28,17 +27,15 @@ const BEYOND: f64 = 1.15;
 const ROUNDS: usize = 14;
 const ROUNDS_OF_GRIDS: [usize; 2] = [2, 8];
 const SAME_GRID: f64 = 0.02;
-/// Numbers whose derivatives are parallel to this part differ by what the grid does to them: they act as one.
-const PARALLEL: f64 = 0.03;
 /// Rounds end when no parameter moves more than this part of its half-width, or this much by itself.
 const STANDS: f64 = 5e-3;
 const STANDS_BY_ITSELF: f64 = 1e-7;
-/// Steps to the foot of a point.
-const STEPS_TO_FOOT: usize = 4;
 /// Residual of every point beside a curve that cannot be solved: more than any other.
 const UNSOLVED: f64 = 1e6;
 /// The logarithm of a number does not go farther than this from its start.
 pub const FARTHEST: f64 = 7.0;
+/// A number whose value may not be larger or smaller by this part is at the end of what it may be.
+const AT_END: f64 = 5e-3;
 /// Singular values below this are nothing.
 const NOTHING: f64 = 1e-9;
 /// A frame pushes back at the most this much of the depth: what a fit may try on its way. One that ends below zero is held at zero.
@@ -53,13 +50,16 @@ pub struct Known {
     pub frame: f64,
     /// Whether it is fitted.
     pub fits_frame: bool,
+    /// Of the depths here over those of the log: -1 where the log counts them the other way.
+    pub sign: f64,
 }
 
 /// The problem of least squares. Parameters: logarithms of the values over those to start from; where they are fitted, the depth at which the
 /// indenter touches less that to start from, over the range of depths, and the compliance of the frame times the range of loads over that of depths.
+#[derive(Clone)]
 pub struct Fit<'a, P> {
     pub indenter: P,
-    start: Vec<f64>,
+    pub start: Vec<f64>,
     pub depths: &'a [f64],
     pub loads: &'a [f64],
     known: Known,
@@ -67,9 +67,13 @@ pub struct Fit<'a, P> {
     /// Ranges of depth and load.
     pub units: [f64; 2],
     /// Noise of both, as large as the ranges together.
-    noises: [f64; 2],
-    feet: Vec<Foot>,
+    pub noises: [f64; 2],
+    pub feet: Vec<Foot>,
     pub parameters: DVector<f64>,
+    /// Parameters that are held where they are.
+    pub held: Vec<bool>,
+    /// What the grid was made for.
+    grid: MadeFor,
     /// The curve of the parameters.
     pub now: Option<Curve>,
     /// How many histories were solved.
@@ -78,19 +82,6 @@ pub struct Fit<'a, P> {
     pub stands: bool,
     /// Whether the grid had to follow the numbers to the last.
     pub grid_moves: bool,
-    /// Whether the compliance of the frame is held: it would be negative.
-    pub holds_frame: bool,
-}
-
-/// The foot of a point on the curve.
-#[derive(Debug, Clone, Copy)]
-struct Foot {
-    /// Depth of the contact there, without that of the frame [length].
-    depth: f64,
-    /// Slope of the curve as the instrument shows it [force/length].
-    slope: f64,
-    /// One over the noise of a distance in direction of the load.
-    weight: f64,
 }
 
 /// The fit of numbers, from their values on, to depths and loads.
@@ -105,7 +96,7 @@ pub fn fit<'a, P: Pressing>(
     known: Known,
 ) -> Result<Fit<'a, P>, IdentifyError> {
     let units = [range(depths), range(loads)].map(|[low, high]| high - low);
-    let numbers = start.len();
+    let parameters = start.len() + usize::from(known.touch.is_none()) + usize::from(known.fits_frame);
     let mut fit = Fit {
         indenter,
         start: start.to_vec(),
@@ -116,29 +107,29 @@ pub fn fit<'a, P: Pressing>(
         units,
         noises: noises([depths, loads], units),
         feet: Vec::new(),
-        parameters: DVector::zeros(
-            numbers + usize::from(known.touch.is_none()) + usize::from(known.fits_frame),
-        ),
+        parameters: DVector::zeros(parameters),
+        held: vec![false; parameters],
+        grid: None,
         now: None,
         histories: 0,
         stands: false,
         grid_moves: false,
-        holds_frame: known.fits_frame,
     };
     if let Some(place) = fit.place_of_frame() {
         fit.parameters[place] = known.frame * units[1] / units[0];
+        fit.held[place] = true;
     }
+    fit = fit.scaled(name)?;
     // A first round without the frame: it would make up for a touch that is only guessed.
-    let mut grid = None;
-    fit = fit.rounds(name, &mut grid, if known.fits_frame { 1 } else { ROUNDS })?;
+    fit = fit.rounds(name, if known.fits_frame { 1 } else { ROUNDS })?;
     if let Some(place) = fit.place_of_frame() {
-        fit.holds_frame = false;
-        fit = fit.rounds(name, &mut grid, ROUNDS)?;
+        fit.held[place] = false;
+        fit = fit.rounds(name, ROUNDS)?;
         if fit.parameters[place] < 0.0 {
             fit.parameters[place] = 0.0;
-            fit.holds_frame = true;
+            fit.held[place] = true;
             fit.now = None;
-            fit = fit.rounds(name, &mut grid, ROUNDS)?;
+            fit = fit.rounds(name, ROUNDS)?;
         }
     }
     Ok(fit)
@@ -149,23 +140,24 @@ type MadeFor = Option<(Vec<f64>, f64)>;
 
 impl<P: Pressing> Fit<'_, P> {
     /// Rounds until nothing moves any more, or so many.
-    fn rounds(mut self, name: &str, grid: &mut MadeFor, most: usize) -> Result<Self, IdentifyError> {
+    fn rounds(mut self, name: &str, most: usize) -> Result<Self, IdentifyError> {
         let mut grids = 0;
         for round in 0..most {
-            let follows = round < ROUNDS_OF_GRIDS[0] || self.now.is_none() || self.has_left(grid);
+            let is_early = (1..ROUNDS_OF_GRIDS[0]).contains(&round);
+            let follows = is_early || self.now.is_none() || self.has_left_grid();
             if follows && grids < ROUNDS_OF_GRIDS[1] {
-                self.solve_on_new_grid(name, grid)?;
+                self.solve_on_new_grid(name)?;
                 grids += 1;
             }
             let before = self.parameters.clone();
             self = self.minimized(name)?;
-            let sure = self.sureness();
+            let sure = self.sureness(false);
             let stands = |k: usize| {
                 let moved = (self.parameters[k] - before[k]).abs();
                 moved < STANDS_BY_ITSELF || sure.as_ref().is_some_and(|sure| moved < STANDS * sure.halves[k])
             };
             self.stands = (0..before.len()).all(stands);
-            self.grid_moves = self.has_left(grid);
+            self.grid_moves = self.has_left_grid();
             if round >= ROUNDS_OF_GRIDS[0] && self.stands && !self.grid_moves {
                 break;
             }
@@ -173,37 +165,68 @@ impl<P: Pressing> Fit<'_, P> {
         Ok(self)
     }
 
+    /// The same with a parameter held at a value: two rounds, on the grid that there is where the contact is the same.
+    pub fn held_at(mut self, name: &str, place: usize, value: f64) -> Result<Self, IdentifyError> {
+        let mut parameters = self.parameters.clone();
+        parameters[place] = value;
+        self.held[place] = true;
+        self.set_params(&parameters);
+        for _ in 0..2 {
+            if self.now.is_none() || self.has_left_grid() {
+                self.solve_on_new_grid(name)?;
+            }
+            self = self.minimized(name)?;
+        }
+        Ok(self)
+    }
+
     /// Whether the contact is another one than that for which the grid was made.
-    fn has_left(&self, grid: &MadeFor) -> bool {
-        let Some((parameters, deepest)) = grid else { return true };
+    fn has_left_grid(&self) -> bool {
+        let Some((parameters, deepest)) = &self.grid else { return true };
         let apart = |(k, before): (usize, &f64)| (self.parameters[k] - before).abs() > SAME_GRID;
         parameters.iter().enumerate().any(apart) || (self.deepest() / deepest).ln().abs() > SAME_GRID
     }
 
     /// The curve of the parameters, on a grid made for them.
-    fn solve_on_new_grid(&mut self, name: &str, grid: &mut MadeFor) -> Result<(), IdentifyError> {
+    pub fn solve_on_new_grid(&mut self, name: &str) -> Result<(), IdentifyError> {
         let deepest = self.deepest();
         if !(deepest > 0.0) {
-            let what = format!("no depth is larger than {:.6e}, at which the indenter touches", self.touch());
-            return Err(refused(
-                name,
-                &what,
-                "is the depth at first touch right, and in the unit of the case?",
-            ));
+            return Err(self.without_depth(name));
         }
         let values = self.values();
         self.indenter.reach(&values, BEYOND * deepest)?;
         let (curve, histories) = self.indenter.pressed(&values)?;
-        if grid.is_none() && self.known.touch.is_none() {
+        if self.grid.is_none() && self.known.touch.is_none() {
             // The power is that of the case's own curve.
             let [load, slope] = curve.at(0.5 * deepest);
             self.touch = first_touch([self.depths, self.loads], self.frame(), slope * 0.5 * deepest / load);
         }
         (self.now, self.histories) = (Some(curve), self.histories + histories);
-        *grid = Some((self.parameters.as_slice()[..self.start.len()].to_vec(), deepest));
+        self.grid = Some((self.parameters.as_slice()[..self.start.len()].to_vec(), deepest));
         Ok(())
     }
 
+    /// That no point is deeper than the touch.
+    fn without_depth(&self, name: &str) -> IdentifyError {
+        let touch = self.known.sign * self.touch();
+        let most = self.depths.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        if most > self.touch() {
+            let what = format!(
+                "the frame, of a compliance of {:.6e}, gives more than the depths of the log from {touch:.6e} on",
+                self.frame()
+            );
+            return refused(name, &what, "is rig.normal_stiffness right, and in the units of the case?");
+        }
+        let what = format!("no point lies deeper than {touch:.6e}, at which the indenter touches");
+        let help = if self.known.touch.is_some() {
+            "is the depth at first touch right, and in the unit of the case?"
+        } else {
+            "the fit came to that depth by itself: compare bodies, profile and units of the case with those of the test, or name the depth with --touch DEPTH"
+        };
+        refused(name, &what, help)
+    }
+
+    /// The solution with the feet as they are.
     fn minimized(mut self, name: &str) -> Result<Self, IdentifyError> {
         self.find_feet();
         let (fit, report) =
@@ -239,10 +262,20 @@ impl<P: Pressing> Fit<'_, P> {
     /// Whether a parameter went as far as it may.
     pub fn is_bound(&self, place: usize) -> bool {
         if self.place_of_frame() == Some(place) {
-            return self.holds_frame;
+            return self.held[place];
         }
         let farthest = if self.place_of_touch() == Some(place) { FARTHEST_TOUCH } else { FARTHEST };
-        self.parameters[place].abs() >= farthest
+        self.parameters[place].abs() >= farthest || self.ends(place)
+    }
+
+    /// Whether a number of the case is at the end of what it may be there, as a Poisson's ratio of 1/2.
+    pub fn ends(&self, place: usize) -> bool {
+        place < self.start.len()
+            && [-AT_END, AT_END].iter().any(|step| {
+                let mut values = self.values();
+                values[place] *= step.exp();
+                !self.indenter.allows(&values)
+            })
     }
 
     /// The depth at which the indenter touches, counted as pressing.
@@ -266,41 +299,15 @@ impl<P: Pressing> Fit<'_, P> {
         Some(self.now.as_ref()?.seen(depth - self.touch(), self.frame()))
     }
 
+    /// Depths of the contact itself, by the measured loads.
+    pub fn own_depths(&self) -> impl Iterator<Item = f64> {
+        let own = |(depth, load): (&f64, &f64)| depth - self.touch() - self.frame() * load.max(0.0);
+        self.depths.iter().zip(self.loads).map(own)
+    }
+
     /// The deepest contact, without the part of the frame.
     fn deepest(&self) -> f64 {
-        let own = |(depth, load): (&f64, &f64)| depth - self.touch() - self.frame() * load.max(0.0);
-        self.depths.iter().zip(self.loads).map(own).fold(f64::NEG_INFINITY, f64::max)
-    }
-
-    /// The feet of the points on the curve as it is.
-    fn find_feet(&mut self) {
-        let Some(now) = &self.now else { return };
-        let ([length, force], touch, frame) = (self.noises, self.touch(), self.frame());
-        let foot = |(depth, load): (&f64, &f64)| {
-            let measured = depth - touch;
-            let mut seen = now.seen(measured, frame);
-            for _ in 0..STEPS_TO_FOOT {
-                let at = seen.depth + frame * seen.load;
-                let off = load - seen.load - seen.slope * (measured - at);
-                let step = seen.slope * off / ((force / length).powi(2) + seen.slope * seen.slope);
-                seen = now.seen(measured + step, frame);
-            }
-            Foot { depth: seen.depth, slope: seen.slope, weight: 1.0 / force.hypot(seen.slope * length) }
-        };
-        self.feet = self.depths.iter().zip(self.loads).map(foot).collect();
-    }
-
-    /// Weighted distances of the points.
-    fn distances(&self, curve: &Curve) -> Vec<f64> {
-        let (touch, frame) = (self.touch(), self.frame());
-        let points = self.depths.iter().zip(self.loads).zip(&self.feet);
-        points
-            .map(|((depth, load), foot)| {
-                let [expected, _] = curve.at(foot.depth);
-                let along = depth - touch - foot.depth - frame * expected;
-                foot.weight * (load - expected - foot.slope * along)
-            })
-            .collect()
+        self.own_depths().fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// By how much the parameters differ on half of the cells along each side, to first order; `None` where that is not solved.
@@ -313,44 +320,25 @@ impl<P: Pressing> Fit<'_, P> {
         self.jacobian()?.svd(true, true).solve(&DVector::from_vec(moved), NOTHING).ok()
     }
 
-    /// How sure the parameters are.
-    pub fn sureness(&self) -> Option<Sureness> {
-        let (residuals, jacobian) = (self.residuals()?, self.jacobian()?);
-        let of_force: Vec<f64> =
-            self.feet.iter().map(|foot| (foot.weight * self.noises[1]).powi(2)).collect();
-        let nothing = DVector::zeros(residuals.len());
-        let mut sure = sureness(&Left {
-            jacobian: &jacobian,
-            residuals: &residuals,
-            of_force: &of_force,
-            bend: (nothing, 0.0),
-        })?;
-        for k in self.acting_as_one(&jacobian) {
-            sure.halves[k] = f64::INFINITY;
-        }
-        Some(sure)
-    }
-
-    /// Numbers of the case whose derivatives are those of others but for what the grid does: modulus and radius of a sphere act by
-    /// `E sqrt(R)`. A thin residual of a clean log would otherwise tell them by the error of the grid.
-    fn acting_as_one(&self, jacobian: &DMatrix<f64>) -> Vec<usize> {
-        let mut columns = jacobian.columns(0, self.start.len()).into_owned();
-        for mut column in columns.column_iter_mut() {
-            let size = column.norm();
-            if size > 0.0 {
-                column /= size;
+    /// Derivatives of the residuals by the parameters; those of the others are nothing.
+    pub fn derivatives(&self, of: impl Fn(usize) -> bool) -> Option<DMatrix<f64>> {
+        let now = self.now.as_ref()?;
+        let frame = self.frame();
+        let mut jacobian = DMatrix::zeros(self.loads.len(), self.parameters.len());
+        for (row, foot) in self.feet.iter().enumerate() {
+            for number in (0..self.start.len()).filter(|number| of(*number)) {
+                let change = now.by(number, foot.depth);
+                jacobian[(row, number)] = -foot.weight * change * (1.0 - foot.slope * frame);
+            }
+            if let Some(place) = self.place_of_touch().filter(|place| of(*place)) {
+                jacobian[(row, place)] = foot.weight * foot.slope * self.units[0];
+            }
+            if let Some(place) = self.place_of_frame().filter(|place| of(*place)) {
+                let [load, _] = now.at(foot.depth);
+                jacobian[(row, place)] = foot.weight * foot.slope * load * self.units[0] / self.units[1];
             }
         }
-        if columns.ncols() < 2 {
-            return Vec::new();
-        }
-        let decomposition = columns.svd(false, true);
-        let Some(directions) = decomposition.v_t else { return Vec::new() };
-        let values = &decomposition.singular_values;
-        let has_part = |k: &usize| {
-            (0..values.len()).any(|row| values[row] < PARALLEL && directions[(row, *k)].abs() > 0.1)
-        };
-        (0..self.start.len()).filter(has_part).collect()
+        Some(jacobian)
     }
 }
 
@@ -382,22 +370,6 @@ impl<P: Pressing> LeastSquaresProblem<f64, Dyn, Dyn> for Fit<'_, P> {
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
-        let now = self.now.as_ref()?;
-        let frame = self.frame();
-        let mut jacobian = DMatrix::zeros(self.loads.len(), self.parameters.len());
-        for (row, foot) in self.feet.iter().enumerate() {
-            for number in 0..self.start.len() {
-                let change = now.by(number, foot.depth);
-                jacobian[(row, number)] = -foot.weight * change * (1.0 - foot.slope * frame);
-            }
-            if let Some(place) = self.place_of_touch() {
-                jacobian[(row, place)] = foot.weight * foot.slope * self.units[0];
-            }
-            if let (Some(place), false) = (self.place_of_frame(), self.holds_frame) {
-                let [load, _] = now.at(foot.depth);
-                jacobian[(row, place)] = foot.weight * foot.slope * load * self.units[0] / self.units[1];
-            }
-        }
-        Some(jacobian)
+        self.derivatives(|place| !self.held[place])
     }
 }

@@ -5,13 +5,14 @@ use super::load_curve::Curve;
 use super::request::Numbers;
 use crate::case::{Case, Course, GridSize, Output, Path, Stage, StageControl};
 use crate::history::Warning;
+use crate::model::Shape;
 use crate::plan::Plan;
 use crate::run::{Silent, Simulation};
 use crate::sensitivity::{Direction, Request, SensitivityError, gradient};
 
 /// Depths at which the contact is solved, in equal factors from the smallest part of the largest one on. Below it the curve continues as a
 /// power of the depth: with fewer cells in the contact the grid would be seen.
-const DEPTHS: usize = 8;
+const DEPTHS: usize = 10;
 const SMALLEST: f64 = 1.0 / 16.0;
 /// Step of the difference by which a derivative is found that the equations do not give, relative.
 const STEP: f64 = 5e-3;
@@ -19,7 +20,7 @@ const STEP: f64 = 5e-3;
 const TABLES: [&str; 3] = ["upper.", "lower.", "profile."];
 
 /// What a fit asks of an indenter: its curve for values of the numbers, up to a depth.
-pub trait Pressing {
+pub trait Pressing: Clone {
     /// From now on curves reach so deep.
     ///
     /// # Errors
@@ -32,11 +33,15 @@ pub trait Pressing {
     /// When it cannot be solved.
     fn pressed(&self, values: &[f64]) -> Result<(Curve, usize), IdentifyError>;
 
+    /// Whether the case may have these values.
+    fn allows(&self, values: &[f64]) -> bool;
+
     /// The curve on half of the cells along each side, without derivatives; `None` where there is none.
     fn coarser(&self, values: &[f64]) -> Option<Curve>;
 }
 
 /// What the curves are computed from.
+#[derive(Clone)]
 pub struct Indenter<'a> {
     numbers: &'a Numbers<'a>,
     depths: Vec<f64>,
@@ -61,12 +66,12 @@ impl<'a> Indenter<'a> {
                 });
             }
         }
-        if let Some((name, _)) = numbers.keys.iter().find(|(name, _)| name.ends_with("flat_punch.radius")) {
+        if let Some((name, _)) = numbers.keys.iter().find(|(name, _)| ends_sharply(case, name)) {
             return Err(IdentifyError::Log {
                 what: format!(
-                    "{name}: the load changes with it in steps of whole cells, which cannot be fitted"
+                    "{name}: the body ends sharply there, and the load changes with it in steps of whole cells, which cannot be fitted"
                 ),
-                help: "measure the radius of a flat punch, and fit what is pressed".to_owned(),
+                help: "measure it, and fit what is pressed".to_owned(),
             });
         }
         Ok(Self { numbers, depths: Vec::new(), size: case.size })
@@ -191,9 +196,26 @@ impl Pressing for Indenter<'_> {
         Ok((curve, found.histories))
     }
 
+    fn allows(&self, values: &[f64]) -> bool {
+        (self.numbers.case_with)(values).is_ok()
+    }
+
     fn coarser(&self, values: &[f64]) -> Option<Curve> {
         Curve::through(&self.points(&self.loads(values, 2).ok()?), &[])
     }
+}
+
+/// Whether a number says where a profile ends, without body beyond.
+fn ends_sharply(case: &Case, name: &str) -> bool {
+    let has = |of: fn(&Shape) -> bool| case.profile.shapes.iter().any(of);
+    let ends = |name: &str| match name {
+        "flat_punch.radius" | "cylinder.length" | "crowned_roller.length" => true,
+        "rectangular_punch.length_x" | "rectangular_punch.length_y" => {
+            has(|shape| matches!(shape, Shape::RectangularPunch { edge_radius: None, .. }))
+        }
+        _ => false,
+    };
+    name.split_once("profile.").is_some_and(|(_, name)| ends(name))
 }
 
 fn refusal(what: &str, help: &str) -> IdentifyError {

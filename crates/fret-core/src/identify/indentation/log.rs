@@ -4,6 +4,7 @@ use super::super::error::{IdentifyError, refused};
 use super::super::turns::range;
 use super::request::{IndentationRequest, Part};
 use crate::measured::{BadRow, Kind, Role, Table, read, scales};
+use crate::model::Dimension;
 use crate::units::Units;
 
 /// Depth of the indenter, and load, among the roles.
@@ -89,7 +90,7 @@ impl Curves {
     ) -> Result<Self, IdentifyError> {
         let table = read((name, bytes), (&ROLES, "measured indentation"), &request.asked, request.strict)?;
         let mut notes = Vec::new();
-        let scale = scales(&table, (&ROLES, &request.asked), units, &mut notes)?;
+        let scale = scales(&table, (&ROLES, &request.asked), (units, Dimension::Plane), &mut notes)?;
         let of =
             |role: usize| -> Vec<f64> { table.of(role).iter().map(|value| value * scale[role]).collect() };
         let (mut depths, mut loads) = (of(DEPTH), of(LOAD));

@@ -11,7 +11,6 @@ const FEWEST_ROWS: usize = 5;
 const QUIET: f64 = 1e-4;
 /// The noise of one signal over that of the other, relative to the ranges, at the most.
 const UNEQUAL: f64 = 4.0;
-
 /// Where the indenter touches, for a start: by regression of the depth against the load to a power, over the rows of loading.
 pub fn first_touch([depths, loads]: [&[f64]; 2], frame: f64, exponent: f64) -> f64 {
     let [_, most] = range(loads);
