@@ -207,7 +207,7 @@ impl ContactSolver<'_> {
         let coupled = self.coupling == Coupling::Coupled;
         let before = self.memory.last_load.filter(|_| self.goes_in_cycles() && start.is_none());
         let as_last = before
-            .and_then(|from| self.memory.last_cycle.tractions([from, *load], (region, self.grid.cells())));
+            .and_then(|from| self.memory.last_cycle.tractions([&from, load], (region, self.grid.cells())));
         if let Some(tractions) = as_last {
             return tractions;
         }
@@ -257,7 +257,7 @@ impl ContactSolver<'_> {
         increment: &Increment,
     ) {
         if let (true, Some(from)) = (self.goes_in_cycles(), self.memory.last_load) {
-            self.memory.last_cycle.keep([from, *load], &increment.state);
+            self.memory.last_cycle.keep([&from, load], &increment.state);
         }
         let pauses = self.pauses(load);
         let last = self.memory.last.take();

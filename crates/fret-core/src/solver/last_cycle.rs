@@ -27,14 +27,21 @@ struct Passed {
     tractions: Tractions,
 }
 
+impl Passed {
+    /// Whether it goes between these loads.
+    fn goes(&self, [from, to]: [&LoadStep; 2]) -> bool {
+        self.loads[0] == *from && self.loads[1] == *to
+    }
+}
+
 impl LastCycle {
     /// The tractions at the end of the last increment between these loads, in a region of a grid of `cells`.
     pub fn tractions(
         &self,
-        loads: [LoadStep; 2],
+        loads: [&LoadStep; 2],
         (region, cells): (Region, [usize; 2]),
     ) -> Option<Tractions> {
-        let passed = self.increments.iter().find(|passed| passed.loads == loads)?;
+        let passed = self.increments.iter().find(|passed| passed.goes(loads))?;
         if passed.region == region {
             return Some(passed.tractions.clone());
         }
@@ -48,8 +55,8 @@ impl LastCycle {
 
     /// Keeps the tractions of a state, with which an increment between these loads ended, in place of those of the last such one; those from
     /// longest ago are dropped where there is no room.
-    pub fn keep(&mut self, loads: [LoadStep; 2], state: &ContactState) {
-        self.increments.retain(|passed| passed.loads != loads);
+    pub fn keep(&mut self, loads: [&LoadStep; 2], state: &ContactState) {
+        self.increments.retain(|passed| !passed.goes(loads));
         let cells: [usize; 2] = state.pressure.dim().into();
         let loaded = |i: usize, j: usize| state.pressure[[i, j]] > 0.0;
         let Some([x, y]) = Region::extent(cells, [false; 2], loaded) else { return };
@@ -58,7 +65,7 @@ impl LastCycle {
             pressure: region.gather(&state.pressure),
             shear: region.gather_tangential(&state.shear),
         };
-        self.increments.push(Passed { loads, region, tractions });
+        self.increments.push(Passed { loads: loads.map(|load| *load), region, tractions });
         let room = (NUMBERS * state.pressure.len()).max(AT_LEAST);
         let numbers = |passed: &Passed| 3 * passed.region.len();
         while self.increments.iter().map(numbers).sum::<usize>() > room {
@@ -95,7 +102,8 @@ mod tests {
     fn an_increment_is_found_by_the_loads_it_goes_between() {
         let (cells, left) = ([6, 4], Region { origin: [0, 0], shape: [3, 4] });
         let mut cycle = LastCycle::default();
-        let (there, back) = ([load(1.0), load(2.0)], [load(2.0), load(1.0)]);
+        let (low, high) = (load(1.0), load(2.0));
+        let (there, back) = ([&low, &high], [&high, &low]);
         assert!(cycle.tractions(there, (left, cells)).is_none());
         cycle.keep(there, &state(1.0, cells, left));
         cycle.keep(there, &state(3.0, cells, left));
@@ -119,15 +127,15 @@ mod tests {
         let whole = Region::whole(cells);
         let mut cycle = LastCycle::default();
         for step in 0..20 {
-            let loads = [load(f64::from(step)), load(f64::from(step + 1))];
-            cycle.keep(loads, &state(1.0, cells, whole));
+            let [from, to] = [step, step + 1].map(|step| load(f64::from(step)));
+            cycle.keep([&from, &to], &state(1.0, cells, whole));
         }
         assert_eq!(cycle.increments.len(), NUMBERS / 3);
-        assert!(cycle.tractions([load(19.0), load(20.0)], (whole, cells)).is_some());
+        assert!(cycle.tractions([&load(19.0), &load(20.0)], (whole, cells)).is_some());
         // A line contact keeps a cycle of a hundred increments.
         let (cells, mut cycle) = ([200, 1], LastCycle::default());
         for step in 0..100 {
-            cycle.keep([load(f64::from(step)), load(0.5)], &state(1.0, cells, Region::whole(cells)));
+            cycle.keep([&load(f64::from(step)), &load(0.5)], &state(1.0, cells, Region::whole(cells)));
         }
         assert_eq!(cycle.increments.len(), 100);
     }
