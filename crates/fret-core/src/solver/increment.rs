@@ -5,28 +5,21 @@ use ndarray::Array2;
 
 use super::coupled;
 use super::energy::StateBefore;
-use super::increment_problem::{IncrementProblem, Solved, centres};
+use super::increment_problem::{IncrementProblem, Solved};
 use super::laws::limit::sliding_fraction;
-use super::laws::rigid_motions::CellPositions;
 use super::linear::preconditioner::CellWaves;
 use super::memory::{Before, Drift, GridTractions, LastIncrement};
-use super::normal::coarse_grids::CoarseGrids;
 use super::operators::{Method, RegionOperators};
 use super::pace::Pace;
-use super::prescribed::NormalLoad;
 use super::region::Region;
 use super::sequential;
 use super::slip_history::slip_path;
 use super::state_after::state_after;
 use super::stretch::Stretch;
 use super::tractions::{Displacements, Tractions};
-use super::{Carried, ContactSolver, Coupling, Increment, IterationCallback, Outcome, SolveError};
+use super::{ContactSolver, Coupling, Increment, IterationCallback, Outcome, SolveError};
 use crate::compliance::{OperatorSet, SurfaceCompliance};
-use crate::model::{ContactState, Control, Integration, LoadStep, Rig, Scheme};
-
-/// A normal load changes much when it changes by more than this fraction: starting on coarse grids is then cheaper than from the
-/// pressure before.
-const LARGE_CHANGE: f64 = 0.03;
+use crate::model::{ContactState, Integration, LoadStep, Scheme};
 
 impl ContactSolver<'_> {
     /// Solves one increment, from the tilt that the gap has.
@@ -192,37 +185,6 @@ impl ContactSolver<'_> {
         last.map(|last| &last.displacements).or(before.displacements.as_ref())
     }
 
-    /// Whether increments start from the last cycle: those of surfaces that move and do not roll.
-    fn goes_in_cycles(&self) -> bool {
-        self.moved.is_some() && self.rolled == [0.0; 2]
-    }
-
-    /// Tractions to start from: those of the last cycle where surfaces move, of a contact that grows to the pressure from coarser grids, or that goes on as it did.
-    fn predicted(
-        &self,
-        start: Option<&Array2<f64>>,
-        (state, load): (&ContactState, &LoadStep),
-        region: Region,
-    ) -> Tractions {
-        let coupled = self.coupling == Coupling::Coupled;
-        let before = self.memory.last_load.filter(|_| self.goes_in_cycles() && start.is_none());
-        let as_last = before
-            .and_then(|from| self.memory.last_cycle.tractions([&from, load], (region, self.grid.cells())));
-        if let Some(tractions) = as_last {
-            return tractions;
-        }
-        if self.rolled != [0.0; 2] && start.is_none() {
-            let tractions = GridTractions::of(state).carried(self.rolled);
-            return Tractions {
-                pressure: region.gather(&tractions.pressure),
-                shear: region.gather_tangential(&tractions.shear),
-            };
-        }
-        let grown = start.filter(|_| coupled).and_then(|pressure| self.grown_to(pressure, state));
-        let GridTractions { pressure, shear } = grown.unwrap_or_else(|| self.extrapolated(state, load));
-        Tractions { pressure: region.gather(&pressure), shear: region.gather_tangential(&shear) }
-    }
-
     /// The last increment, where its pressure is that under a load, too: nothing but the load along the surface has changed.
     fn whose_pressure_is_kept(&self, region: Region, load: &LoadStep) -> Option<&LastIncrement> {
         let may_be_kept = self.coupling != Coupling::Coupled && self.settings.reuse_pressure;
@@ -334,46 +296,6 @@ impl ContactSolver<'_> {
         }
     }
 
-    /// A pressure from coarser grids: for a first contact, and where the normal load changes much.
-    fn pressure_from_coarse_grids(
-        &mut self,
-        state: &ContactState,
-        load: &LoadStep,
-        callback: IterationCallback<'_>,
-    ) -> Result<Option<Array2<f64>>, SolveError> {
-        let touched = state.pressure.iter().any(|p| *p > 0.0);
-        let far = match (load.normal, self.memory.last_load.map(|last| last.normal)) {
-            (Control::Force(now), Some(Control::Force(then)))
-            | (Control::Motion(now), Some(Control::Motion(then))) => {
-                (now - then).abs() > LARGE_CHANGE * now.abs()
-            }
-            _ => true,
-        };
-        // A coupled contact that has grown before goes on from itself.
-        let goes_on = self.coupling == Coupling::Coupled && self.memory.before.is_some();
-        if touched && (!far || goes_on) {
-            return Ok(None);
-        }
-        let lowest = self.undeformed.iter().copied().fold(f64::INFINITY, f64::min);
-        let presses = match load.normal {
-            Control::Force(force) => force > 0.0,
-            Control::Motion(approach) => approach > lowest,
-            Control::FarEnd(_) => false,
-        };
-        if !presses {
-            return Ok(None);
-        }
-        let spacing = self.grid.spacing();
-        let whole = Region::whole(self.grid.cells());
-        let positions =
-            CellPositions::new(centres(&self.grid, whole, 0), centres(&self.grid, whole, 1), false);
-        let normal = NormalLoad::new(state, load, Rig::RIGID, [positions.length, self.grid.cell_area()]);
-        let grids = self.coarse.get_or_insert_with(|| {
-            CoarseGrids::below(self.response.get(), &self.undeformed, (&positions, spacing), self.symmetry)
-        });
-        grids.pressure_above(normal, self.table.as_ref(), &self.settings, &mut self.work, callback)
-    }
-
     /// By how much more the lower surface is strained than the upper one, in the increment.
     fn stretch(&self, state: &ContactState, load: &LoadStep) -> Stretch {
         let [before, after] =
@@ -385,64 +307,4 @@ impl ContactSolver<'_> {
     fn cells_of_whole(&self) -> f64 {
         (self.grid.len() * self.symmetry.copies()) as f64
     }
-
-    /// Whether what was found is a solution: as far as the equations of the region do not say.
-    fn check(
-        &self,
-        load: &LoadStep,
-        after: &ContactState,
-        outcome: &Outcome,
-        iterations: usize,
-    ) -> Result<(), SolveError> {
-        self.check_equilibrium(load, outcome, iterations)?;
-        self.check_across(after, iterations)?;
-        if self.beyond.is_body() && self.touches_edge(&after.pressure) {
-            return Err(SolveError::ContactAtEdge);
-        }
-        Ok(())
-    }
-
-    /// Whether the forces asked for are those of the solution: with a prescribed approach they may be more than friction carries.
-    fn check_equilibrium(
-        &self,
-        load: &LoadStep,
-        outcome: &Outcome,
-        iterations: usize,
-    ) -> Result<(), SolveError> {
-        self.check_friction_carries(load, outcome.resultants.normal, 1.0 + self.settings.tolerance)?;
-        let reached = outcome.residual.equilibrium;
-        if reached <= self.settings.tolerance {
-            return Ok(());
-        }
-        Err(SolveError::NotConverged { reached, iterations })
-    }
-
-    /// Whether there is no shear across the one axis along which it acts: its displacement is left out, so that nothing else would
-    /// tell.
-    fn check_across(&self, state: &ContactState, iterations: usize) -> Result<(), SolveError> {
-        let Some(axis) = self.shear_axis else { return Ok(()) };
-        let size = |field: &Array2<f64>| field.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        let (across, bound) = (size(&state.shear[1 - axis]), self.friction.largest() * size(&state.pressure));
-        if across <= self.settings.tolerance * bound {
-            return Ok(());
-        }
-        let reached = if bound > 0.0 { across / bound } else { 1.0 };
-        Err(SolveError::NotConverged { reached, iterations })
-    }
-
-    /// Whether the prescribed tangential force is at most a `fraction` of what the friction coefficient carries.
-    fn check_friction_carries(&self, load: &LoadStep, normal: f64, fraction: f64) -> Result<(), SolveError> {
-        let asked = tangential_force(load);
-        let bound = self.friction.largest() * normal.max(0.0);
-        if asked > bound * fraction {
-            return Err(SolveError::AboveSliding { asked, bound, by: Carried::Coefficient });
-        }
-        Ok(())
-    }
-}
-
-/// Size of the prescribed tangential force [force].
-fn tangential_force(load: &LoadStep) -> f64 {
-    let [x, y] = load.tangential.map(|control| control.force().unwrap_or(0.0));
-    x.hypot(y)
 }

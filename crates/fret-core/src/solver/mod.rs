@@ -6,6 +6,7 @@
 //! `docs/theory/solution-algorithm.md`.
 
 mod augmented_newton;
+mod checks;
 mod contact_edge;
 mod contact_problem;
 mod contact_set;
