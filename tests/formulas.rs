@@ -113,11 +113,27 @@ fn a_wave_by_a_formula_carries_the_pressure_of_westergaard() {
 /// Refined, the formula is taken at the new cells: where it has no value there, that is said, and nothing is guessed.
 #[test]
 fn on_other_cells_a_formula_is_judged_again() {
-    let text = case(PLANE, &formula("profile", "x^2 + y^2 + 1e-9/abs(x - 0.125)", "R = 1.0"), PULLED);
+    let text = case(PLANE, &formula("profile", "x^2/R + y^2 + 1e-9/abs(x - 0.125)", "R = 1.0"), PULLED);
     let mut case = Case::from_toml(&text, "case.toml").unwrap();
     assert!(Plan::new(case.clone()).is_ok());
     // of 0.25, whose centres lie at 0.125 and so on; those of 0.125 lie at 0.0625 and so on
     case.cells = [12, 20];
     let error = Plan::new(case).map(|_| ()).unwrap_err().to_string();
     assert!(error.contains("no finite value at x = "), "{error}");
+}
+
+/// Two cylinders crossed at 45 degrees to the way of the upper one: their sum is its own mirror image, neither of them is. Moved by s they touch
+/// at (s/2, s/2), as before: approach and pressure stay what they are.
+#[test]
+fn bodies_that_move_are_mirrored_each_by_itself() {
+    let text = "grid = { cells = [48, 48], size = [3.1e-3, 3.1e-3] }\nkinematics = { displacement = \"finite\" }\n\
+                upper.substrate = { young = 210e9, poisson = 0.3 }\nlower.substrate = { young = 210e9, poisson = 0.3 }\n\
+                upper.profile.formula = { expression = \"(x + y)^2/(4*R)\", parameters = { R = 37e-3 } }\n\
+                lower.profile.formula = { expression = \"(x - y)^2/(4*R)\", parameters = { R = 37e-3 } }\n\
+                friction.coefficient = 0.3\n[[load]]\nnormal_force = 4000.0\nincrements = 1\n[[load]]\nshift = [0.6e-3, 0.0]\nincrements = 4\n";
+    let history = run(text).unwrap();
+    let [first, last] = [0, history.steps.len() - 1].map(|step| &history.steps[step]);
+    assert!((last.approach / first.approach - 1.0).abs() < 1e-3, "{} {}", first.approach, last.approach);
+    // the middle lies elsewhere among the cells of a seventeenth of the contact
+    assert!((last.max_pressure / first.max_pressure - 1.0).abs() < 5e-3);
 }

@@ -46,6 +46,18 @@ pub(super) fn formula(
             return judge.refuse(inside(text, error.at), message, &error.help);
         }
     };
+    for (name, _) in given.parameters.iter().flat_map(|named| &named.0) {
+        if !formula.names(&name.value) {
+            judge.refuse::<()>(
+                name.span(),
+                format!("{place}.parameters.{}: the expression does not name it", name.value),
+                "leave it out, or correct its name",
+            );
+        }
+    }
+    if judge.mistakes.len() > before {
+        return None;
+    }
     let over = cells.and_then(|cells| Some((cells.count, cells.size?)));
     if let Some([x, y]) = over.and_then(|(count, size)| undefined(&formula, count, size, moves)) {
         return judge.refuse(
@@ -116,6 +128,8 @@ mod tests {
 
     #[test]
     fn parameters_have_names_and_values() {
+        let unused = with("\"x^2/R + y^2\"", "R = 1.0, Q = 1.0");
+        refused(BALL, &[(SPHERE, &unused)], "parameters.Q: the expression does not name it", "Q");
         refused(BALL, &[(SPHERE, &with("\"x^2\"", "x = 1.0"))], "parameters.x: no name of a parameter", "x");
         refused(BALL, &[(SPHERE, &with("\"x^2\"", "\"a b\" = 1.0"))], "no name of a parameter", "\"a b\"");
         refused(

@@ -26,10 +26,12 @@ pub(super) fn profile(judge: &mut Judge, file: &CaseFile, cells: Option<Cells>) 
     ];
     let before = judge.mistakes.len();
     let mut sum = Profile::default();
+    // A surface that repeats is asked for inside of its period alone.
+    let moves = judge.moves && !file.grid.periodic.as_deref().is_some_and(|periodic| *periodic);
     for (place, given) in places {
         if let Some(given) = given {
             let before = sum.shapes.len();
-            Part { judge, place, cells, before, sum: &mut sum }.judge(given);
+            Part { judge, place, cells, moves, before, sum: &mut sum }.judge(given);
         }
         if place == "upper.profile" {
             sum.of_upper = [sum.shapes.len(), sum.heights.len()];
@@ -103,6 +105,8 @@ struct Part<'a, 'b> {
     judge: &'a mut Judge<'b>,
     place: &'static str,
     cells: Option<Cells>,
+    /// Whether the upper body may come to lie anywhere around the grid.
+    moves: bool,
     /// Shapes of other profiles in the sum.
     before: usize,
     sum: &'a mut Profile,
@@ -138,7 +142,7 @@ impl Part<'_, '_> {
         }
         if let Some(given) = by_formula {
             let place = format!("{}.formula", self.place);
-            let moves = self.judge.moves && self.place != "lower.profile";
+            let moves = self.moves && self.place != "lower.profile";
             let judged = formula(self.judge, &place, given, self.cells, moves);
             self.sum.shapes.extend(judged);
         }

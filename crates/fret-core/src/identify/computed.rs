@@ -7,6 +7,8 @@
 
 /// A point that lacks less than this part of all is taken for the corner.
 const AT_CORNER: f64 = 1e-3;
+/// Places nearer to one another than this part of the way to the turn are one.
+const CLOSE: f64 = 1e-6;
 /// Steps to the displacement of the contact below one of the actuator, at the most.
 const STEPS: usize = 60;
 
@@ -90,8 +92,9 @@ impl Corner {
         let shift = shift.clamp(points[slid][2], near[near.len() - 1][2]);
         let mut nodes = vec![[shift, 0.0]];
         nodes.extend(sticking.iter().rev().map(|point| [point[2], lacks(point)]));
-        // Places that fall together determine no slope.
-        nodes.dedup_by(|next, before| next[0] <= before[0]);
+        // Places that fall together, but for rounding, determine no slope.
+        let close = CLOSE * (points[0][2] - shift);
+        nodes.dedup_by(|next, before| next[0] - before[0] <= close);
         let at = [shift + compliance * limit, limit];
         (nodes.len() > 2).then_some(Self { at, nodes, power, compliance })
     }

@@ -50,6 +50,13 @@ const ALWAYS: usize = 6;
 /// A bend is fitted where it is more than so many of its standard deviations.
 const BENDS: f64 = 3.0;
 
+/// Part of the amplitudes from which on points lie farther off a loop than a measured one's do.
+const FAR: f64 = 0.04;
+/// Offsets below this part of the amplitudes are not begun with.
+const SLIGHT: f64 = 1e-3;
+/// Factors on the stiffness of the rig to begin with, where the first beginning leads nowhere.
+const OTHER_STARTS: [f64; 4] = [0.3, 3.0, 0.05, 20.0];
+
 /// The fit of the constants of a model to a cycle, with the bend of its drift where that is known.
 ///
 /// # Errors
@@ -61,6 +68,35 @@ pub fn fit<'a>(
     bend: Option<Bend>,
 ) -> Result<Fit<'a>, IdentifyError> {
     let (start, first) = first_guess(name, cycle, model)?;
+    let mut best = fit_from(name, (cycle, bend), model, (start, first));
+    // Few points on a flank tell its slope badly, and with it where to begin.
+    for factor in OTHER_STARTS {
+        if best.as_ref().is_ok_and(|fit| fit.off() < FAR) {
+            break;
+        }
+        let [friction, stiffness, amplitude] = start;
+        let other = [friction, factor * stiffness, amplitude];
+        let Ok(first) = model.loop_of(other[0], other[1], other[2], None) else { continue };
+        let other = fit_from(name, (cycle, bend), model, (other, first));
+        let is_better = match (&best, &other) {
+            (Ok(best), Ok(other)) => other.off() < best.off(),
+            (Err(_), Ok(_)) => true,
+            _ => false,
+        };
+        if is_better {
+            best = other;
+        }
+    }
+    best
+}
+
+/// The fit from constants and their loop.
+fn fit_from<'a>(
+    name: &str,
+    (cycle, bend): (&'a MeasuredCycle, Option<Bend>),
+    model: &'a Model<'a>,
+    (start, first): ([f64; 3], Loop),
+) -> Result<Fit<'a>, IdentifyError> {
     let [low, high] = calm_range(&cycle.displacement);
     let [bottom, top] = calm_range(&cycle.force);
     let units = [0.5 * (high - low), 0.5 * (top - bottom)];
@@ -80,8 +116,10 @@ pub fn fit<'a>(
         loops: RefCell::default(),
     };
     fit.now = fit.keep(&fit.parameters, Some(first));
-    fit.parameters[3] = f64::midpoint(low, high) / fit.units[0];
-    fit.parameters[5] = f64::midpoint(bottom, top) / fit.units[1];
+    // The first step is bounded by the size of what it starts from, but for nothing: offsets that are rounding would forbid it.
+    let of_note = |offset: f64| if offset.abs() < SLIGHT { 0.0 } else { offset };
+    fit.parameters[3] = of_note(f64::midpoint(low, high) / fit.units[0]);
+    fit.parameters[5] = of_note(f64::midpoint(bottom, top) / fit.units[1]);
     fit = fit.minimized(name)?;
     if bend.is_none() && fit.is_bent() {
         fit.bend_is_fitted = true;
@@ -120,13 +158,20 @@ pub struct Fit<'a> {
 type Constants = ([f64; 3], Option<f64>);
 
 impl Fit<'_> {
+    /// How far the points lie off the loop, over the amplitudes: root of the mean square.
+    fn off(&self) -> f64 {
+        self.residuals().map_or(f64::INFINITY, |off| (off.norm_squared() / off.len() as f64).sqrt())
+    }
+
     fn minimized(mut self, name: &str) -> Result<Self, IdentifyError> {
         for round in 0..ROUNDS {
             self.find_feet(round);
             let (found, report) =
                 LevenbergMarquardt::new().with_ftol(1e-8).with_xtol(1e-6).with_patience(8).minimize(self);
             self = found;
-            if self.now.is_none() || matches!(report.termination, TerminationReason::User(_)) {
+            let is_lost =
+                matches!(report.termination, TerminationReason::User(_) | TerminationReason::Numerical(_));
+            if self.now.is_none() || is_lost {
                 let ([friction, stiffness, amplitude], _) = self.constants(&self.parameters);
                 return Err(refused(
                     name,

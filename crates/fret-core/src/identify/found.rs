@@ -108,7 +108,7 @@ impl Fit<'_> {
                 unit,
                 value,
                 interval: [value * (-half).exp(), value * half.min(300.0).exp()],
-                told: half < TOLD && !self.is_unbounded(k),
+                told: half < TOLD && noise < TOLD && !self.is_unbounded(k),
             }
         };
         let mut constants = vec![

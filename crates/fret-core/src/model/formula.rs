@@ -50,6 +50,12 @@ impl Formula {
         centres.chain([[0.0; 2]]).find(|[x, y]| !self.at(*x, *y).is_finite())
     }
 
+    /// Whether the expression names a number.
+    pub fn names(&self, number: &str) -> bool {
+        let is_of_a_name = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+        self.text.split(|letter| !is_of_a_name(letter)).any(|word| word == number)
+    }
+
     /// Whether it depends on x (0) or y (1).
     pub fn depends_on(&self, axis: usize) -> bool {
         self.expression.has(axis)

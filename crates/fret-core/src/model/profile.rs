@@ -149,6 +149,17 @@ impl Profile {
         gap
     }
 
+    /// What of it is the upper body's.
+    pub fn of_upper_body(&self) -> Self {
+        let [shapes, heights] = self.of_upper;
+        let shapes = self.shapes.iter().take(shapes).cloned().collect();
+        Self {
+            shapes,
+            heights: self.heights.iter().take(heights).cloned().collect(),
+            of_upper: self.of_upper,
+        }
+    }
+
     /// The undeformed gap where the contact has rolled by `cells` along each axis: paraboloids have gone along, waves and heights, which belong to
     /// places of the surfaces, stay.
     pub fn gap_rolled(&self, grid: &SurfaceGrid, cells: [f64; 2]) -> Array2<f64> {

@@ -38,9 +38,12 @@ pub fn symmetry(
         *odd = odd.filter(|_| !moves);
     }
     let gap = case.profile.gap(grid);
+    // Where bodies move against each other each of them has to be its own mirror image.
+    let upper = (moves != [false; 2]).then(|| case.profile.of_upper_body().gap(grid));
     let frictions = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
+    let gaps = upper.iter().chain([&gap]).map(|gap| gap.view());
     let maps: Vec<_> =
-        frictions.flat_map(|friction| friction.maps().map(|map| map.view())).chain([gap.view()]).collect();
+        frictions.flat_map(|friction| friction.maps().map(|map| map.view())).chain(gaps).collect();
     let kept = |axis: usize| {
         let mut odd = [None, None];
         odd[axis] = odd_shear[axis];
