@@ -150,6 +150,7 @@ impl Profile {
     }
 
     /// What of it is the upper body's.
+    #[must_use]
     pub fn of_upper_body(&self) -> Self {
         let [shapes, heights] = self.of_upper;
         let shapes = self.shapes.iter().take(shapes).cloned().collect();
