@@ -364,9 +364,11 @@ impl Reading<'_> {
             }
         }
         match takes {
-            Arguments::Two if count != 2 => {
-                Err(self.wrong(place, &format!("{name} of {count} numbers"), &format!("{name}(a, b)")))
-            }
+            Arguments::Two if count != 2 => Err(self.wrong(
+                place,
+                &format!("{name} takes two numbers, found {count}"),
+                &format!("{name}(a, b)"),
+            )),
             Arguments::Several if count < 2 => {
                 Err(self.wrong(place, &format!("{name} of one number"), &format!("{name}(a, b, ...)")))
             }

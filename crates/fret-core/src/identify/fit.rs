@@ -50,11 +50,13 @@ const ALWAYS: usize = 6;
 /// A bend is fitted where it is more than so many of its standard deviations.
 const BENDS: f64 = 3.0;
 
-/// Part of the amplitudes from which on points lie farther off a loop than a measured one's do.
+/// Points that lie farther off the loop than this part of the amplitudes, by the root of the mean square, are no noise of a measured one yet: it is begun
+/// anew.
 const FAR: f64 = 0.04;
 /// Offsets below this part of the amplitudes are not begun with.
 const SLIGHT: f64 = 1e-3;
-/// Factors on the stiffness of the rig to begin with, where the first beginning leads nowhere.
+/// Factors on the stiffness of the rig to begin with, where the first beginning leads nowhere. Of 30 logs with 32 and 60 rows in a cycle, a tenth of them
+/// on the flanks, nine ended 16 % of the amplitudes and more off without them, and none with them.
 const OTHER_STARTS: [f64; 4] = [0.3, 3.0, 0.05, 20.0];
 
 /// The fit of the constants of a model to a cycle, with the bend of its drift where that is known.

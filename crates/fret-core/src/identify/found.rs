@@ -11,6 +11,8 @@ use super::model::Model;
 
 /// An interval wider than this on either side, relative, tells nothing of its constant.
 pub const TOLD: f64 = 0.5;
+/// A loop whose points lie farther off than this part of the amplitudes is another one.
+const NEAR: f64 = 0.5;
 /// Part of a straight drift that a bend may have: an exponential approach with a time constant of half a cycle.
 const BENT: f64 = 0.25;
 /// An interval is said to be wider from this factor on.
@@ -108,7 +110,7 @@ impl Fit<'_> {
                 unit,
                 value,
                 interval: [value * (-half).exp(), value * half.min(300.0).exp()],
-                told: half < TOLD && noise < TOLD && !self.is_unbounded(k),
+                told: half < TOLD && noise < NEAR && !self.is_unbounded(k),
             }
         };
         let mut constants = vec![

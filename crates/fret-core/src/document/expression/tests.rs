@@ -62,7 +62,7 @@ fn what_is_wrong_is_told_with_its_place() {
         ("(x + y", "( that is not closed, at character 1", 0..1),
         ("x)", ") without its (", 1..2),
         ("sin x", "sin without its argument", 0..3),
-        ("hypot(1)", "hypot of 1 numbers", 0..5),
+        ("hypot(1)", "hypot takes two numbers, found 1", 0..5),
         ("max(1)", "max of one number", 0..3),
         ("sin(1, 2)", "found \",\", expected an operator or )", 5..6),
         ("min(1, 2", "( that is not closed", 3..4),

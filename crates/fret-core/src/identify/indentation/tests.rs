@@ -179,6 +179,21 @@ fn homogeneous(profile: &'static str, cells: usize) -> impl Fn(&[f64]) -> String
     }
 }
 
+/// Load of a sphere of radius 1 (Hertz).
+fn hertz(depth: f64) -> f64 {
+    4.0 / 3.0 * MODULUS * depth.powf(1.5)
+}
+
+/// Load of a cone of slope 0.2 (Sneddon).
+fn sneddon(depth: f64) -> f64 {
+    2.0 / PI * MODULUS * depth * depth / 0.2
+}
+
+/// Load of a flat punch of radius 0.01.
+fn flat(depth: f64) -> f64 {
+    2.0 * 0.01 * MODULUS * depth
+}
+
 /// Hertz and Sneddon, from a start 40 % too low: clean curves to 0.5 %, the error of 48 cells along a side (a punch's edge, 1 %). On half of the
 /// cells they change by no more than a few times that.
 #[test]
@@ -186,9 +201,6 @@ fn the_modulus_of_a_homogeneous_body_is_found() {
     let sphere = homogeneous("profile.sphere.radius = 1.0", 48);
     let cone = homogeneous("profile.cone.slope = 0.2", 48);
     let punch = homogeneous("profile.flat_punch.radius = 0.01", 48);
-    let hertz = |d: f64| 4.0 / 3.0 * MODULUS * d.powf(1.5);
-    let sneddon = |d: f64| 2.0 / PI * MODULUS * d * d / 0.2;
-    let flat = |d: f64| 2.0 * 0.01 * MODULUS * d;
     let key = ("lower.substrate.young", 42e3);
     let tests: [(&str, f64, Model<'_>, f64, Load<'_>); 3] = [
         ("sphere", 0.005, &sphere, 1e-3, &hertz),
@@ -415,7 +427,6 @@ fn refusal_of(
 
 #[test]
 fn what_is_no_indentation_is_refused_with_its_place() {
-    let hertz = |d: f64| 4.0 / 3.0 * MODULUS * d.powf(1.5);
     let good = Test { deepest: 1e-3, load: &hertz, frame: 0.0 }.log([0.0; 2], 0);
     let key = [("lower.substrate.young", 70e3)];
     let request = IndentationRequest::default();
@@ -451,7 +462,6 @@ fn what_is_no_indentation_is_refused_with_its_place() {
 fn a_test_that_is_not_elastic_is_told_and_its_parts_can_be_fitted() {
     let case = homogeneous("profile.sphere.radius = 1.0", 32);
     let key = [("lower.substrate.young", 60e3)];
-    let hertz = |d: f64| 4.0 / 3.0 * MODULUS * d.powf(1.5);
     let log = Test { deepest: 1e-3, load: &hertz, frame: 0.0 }.log([0.0; 2], 0);
     let plastic = log.lines().enumerate().fold(String::new(), |text, (row, line)| {
         let Some((depth, load)) = line.split_once(';').filter(|_| row > 0) else { return text + line + "\n" };
@@ -486,7 +496,6 @@ fn intervals_of_films_hold_in_ninety_of_a_hundred() {
     let request = IndentationRequest::default();
     let by_young = |values: &[f64]| grid(&[values[0], THICKNESS.1]);
     let by_thickness = |values: &[f64]| grid(&[YOUNG.1, values[0]]);
-    let hertz = |d: f64| 4.0 / 3.0 * MODULUS * d.powf(1.5);
     let ball = Test { deepest: 1e-3, load: &hertz, frame: 0.0 };
     let of_ball = homogeneous("profile.sphere.radius = 1.0", 48);
     let trials: [(&str, f64, Model<'_>, &Test<'_>); 3] = [
@@ -505,11 +514,6 @@ fn intervals_of_films_hold_in_ninety_of_a_hundred() {
             assert!(held >= 90, "{key}: {held} of 100");
         }
     }
-}
-
-/// Hertz: `P = 4/3 E* sqrt(R) d^1.5`, R = 1.
-fn hertz(d: f64) -> f64 {
-    4.0 / 3.0 * MODULUS * d.powf(1.5)
 }
 
 /// A sphere by its modulus and radius.

@@ -19,7 +19,7 @@ use fret_fft::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol}
 /// A pair is stiff at the surface when the longest waves of a region meet this many times the compliance times wavenumber that
 /// the shortest ones meet: a thin coating more than about five times stiffer than what lies below.
 const STIFF_ABOVE: f64 = 4.0;
-/// In a scene that repeats, shear takes the displacement of the pressure into account where `zx^2 / (zz xx)` of a wave is more than this. On a
+/// In a periodic problem, shear takes the displacement of the pressure into account where `zx^2 / (zz xx)` of a wave is more than this. On a
 /// half-space it is 0.08 for a Poisson ratio of 0.3, and 0.25 for none; under films a hundred times stiffer up to 0.6: they bend.
 const COUPLED_ABOVE: f64 = 0.3;
 
@@ -353,7 +353,7 @@ fn kernel_of(symbol: Symbol<'_>, shape: [usize; 2]) -> Result<Vec<f64>, Convolut
     Ok(kernel)
 }
 
-/// Whether waves of pressure move the surface of a scene that repeats along itself so much that shear has to take them into account.
+/// Whether waves of pressure move the surface of a periodic problem along itself so much that shear has to take them into account.
 fn couples(symbols: &PeriodicSymbols) -> bool {
     let PeriodicSymbols { zz: Some(zz), xx: Some(xx), zx: Some(zx), .. } = symbols else { return false };
     // along x alone nothing turns

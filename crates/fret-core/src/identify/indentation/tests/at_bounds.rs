@@ -9,7 +9,7 @@ use super::super::load_curve::Curve;
 use super::super::log::Curves;
 use super::super::notes::note_of_zero;
 use super::super::{Indentation, IndentationRequest, answer};
-use super::{MODULUS, Power, Test, found, homogeneous, refusal_of, text};
+use super::{Power, Test, found, hertz, homogeneous, refusal_of, text};
 use crate::identify::IdentifyError;
 use crate::units::Units;
 
@@ -113,7 +113,6 @@ fn a_number_at_the_end_of_what_it_may_be_is_not_told() {
         let body = format!("lower.substrate = {{ young = 50e3, poisson = {:?} }}", values[0]);
         text("profile.sphere.radius = 1.0", &body, 24)
     };
-    let hertz = |d: f64| 4.0 / 3.0 * MODULUS * d.powf(1.5);
     let log = Test { deepest: 1e-3, load: &hertz, frame: 0.0 }.log([0.002; 2], 1);
     let request = IndentationRequest::default();
     let found = found(&case, &[("lower.substrate.poisson", 0.3)], &log, &request).unwrap();
@@ -125,7 +124,6 @@ fn a_number_at_the_end_of_what_it_may_be_is_not_told() {
 /// Loads that are a tenth of the largest too high, also before the touch, which the rows there show: it is said, and nothing is told.
 #[test]
 fn a_load_that_is_not_counted_from_zero_is_seen_before_the_touch() {
-    let hertz = |d: f64| 4.0 / 3.0 * MODULUS * d.powf(1.5);
     let log = Test { deepest: 1e-3, load: &hertz, frame: 0.0 }.log([0.002; 2], 1);
     let offset = 0.1 * hertz(1e-3);
     let moved = log.lines().fold(String::new(), |text, line| {
@@ -175,7 +173,6 @@ fn loads_that_are_counted_from_zero_are_left() {
 /// Lengths at which a body ends sharply change the load in steps of whole cells: they are refused. One with a rounded edge is not.
 #[test]
 fn lengths_of_sharp_edges_are_refused() {
-    let hertz = |d: f64| 4.0 / 3.0 * MODULUS * d.powf(1.5);
     let log = Test { deepest: 1e-3, load: &hertz, frame: 0.0 }.log([0.0; 2], 0);
     let body = "lower.substrate = { young = 70e3, poisson = 0.3 }";
     for (profile, key) in [

@@ -1,9 +1,9 @@
 //! Starts far away from what is found.
 
-use std::f64::consts::PI;
-
 use super::super::IndentationRequest;
-use super::{Load, MODULUS, Model, Test, YOUNG, film, found, homogeneous, of_film, refusal_of, sphere};
+use super::{
+    Load, Model, Test, YOUNG, film, flat, found, hertz, homogeneous, of_film, refusal_of, sneddon, sphere,
+};
 
 /// Ten and a hundred times too soft and too stiff, three times, of a sphere, a cone and a punch in closed form, with 0.2 % of noise: the modulus to
 /// 1.5 %, the error of 32 cells, the same from each of them to a hundredth of that.
@@ -12,9 +12,6 @@ fn a_modulus_is_found_from_a_hundred_times_too_soft_or_too_stiff() {
     let ball = homogeneous("profile.sphere.radius = 1.0", 32);
     let cone = homogeneous("profile.cone.slope = 0.2", 32);
     let punch = homogeneous("profile.flat_punch.radius = 0.01", 32);
-    let hertz = |d: f64| 4.0 / 3.0 * MODULUS * d.powf(1.5);
-    let sneddon = |d: f64| 2.0 / PI * MODULUS * d * d / 0.2;
-    let flat = |d: f64| 2.0 * 0.01 * MODULUS * d;
     let tests: [(&str, Model<'_>, f64, Load<'_>); 3] =
         [("sphere", &ball, 1e-3, &hertz), ("cone", &cone, 1e-3, &sneddon), ("punch", &punch, 1e-4, &flat)];
     for (name, case, deepest, load) in tests {
@@ -63,7 +60,6 @@ fn a_film_is_found_from_ten_times_too_soft_or_too_stiff() {
 #[test]
 fn a_touch_beyond_the_deepest_point_is_told_as_the_log_counts_it() {
     let case = |values: &[f64]| sphere(&[values[0], 1.0]);
-    let hertz = |d: f64| 4.0 / 3.0 * MODULUS * d.powf(1.5);
     let log = Test { deepest: 1e-3, load: &hertz, frame: 0.0 }.log([0.0; 2], 0);
     let turned = log.lines().fold(String::new(), |text, line| {
         text + if line.starts_with(|first: char| first.is_ascii_digit()) { "-" } else { "" } + line + "\n"
