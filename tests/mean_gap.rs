@@ -82,6 +82,18 @@ fn the_force_that_a_mean_gap_needs_leaves_that_mean_gap() {
     }
 }
 
+/// Closed at a mean pressure of pi E* amplitude / length; above it nothing is left of the gap, and no rounding of it.
+#[test]
+fn surfaces_that_touch_everywhere_have_no_mean_gap() {
+    for times in [1.1, 3.0] {
+        let history = solved(&format!(
+            "{WAVE}[[load]]\nnormal_force = {:e}\nincrements = 1\n",
+            times * force(0.01, 1.0)
+        ));
+        assert_eq!(last(&history).mean_gap, Some(0.0));
+    }
+}
+
 #[test]
 fn a_cycle_that_would_close_the_gap_ends_the_run() {
     let text = format!(

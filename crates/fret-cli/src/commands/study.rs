@@ -61,7 +61,10 @@ pub fn study(arguments: &StudyArguments) -> Result<Answer, Failure> {
     let text = format!("{:#}", studied.record);
     let Studied { study, lines, .. } = &studied;
     write_whole(&folder.join("study.csv"), table::csv(study, lines).as_bytes())?;
-    write_whole(&folder.join("study.svg"), picture::picture(&title, study, lines).as_bytes())?;
+    write_whole(
+        &folder.join("study.svg"),
+        picture::picture(&title, plan.case.dimension(), study, lines).as_bytes(),
+    )?;
     write_whole(&folder.join(STUDY), format!("{text}\n").as_bytes())?;
     kept.remove();
     let Studied { measured, choice, reference, .. } = &studied;

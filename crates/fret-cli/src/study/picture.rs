@@ -1,6 +1,7 @@
 //! The picture of a study: error over time, both logarithmic, as SVG that stands alone. On the left each kind of refinement with
 //! its worst quantity of interest; on the right what reading the numbers between the cells, and extrapolating them, is worth.
 
+use fret_core::model::Dimension;
 use fret_core::study::{Form, Kind, Line, Quantity, RefinementStudy};
 use maud::{Markup, html};
 
@@ -31,9 +32,9 @@ struct Panel {
 }
 
 /// The picture of judged lines.
-pub fn picture(title: &str, study: &RefinementStudy, lines: &[Line]) -> String {
+pub fn picture(title: &str, dimension: Dimension, study: &RefinementStudy, lines: &[Line]) -> String {
     let panels: Vec<Panel> =
-        [Some(kinds(study, lines)), readings(study, lines)].into_iter().flatten().collect();
+        [Some(kinds(study, lines)), readings(study, lines, dimension.area())].into_iter().flatten().collect();
     let rows = panels.iter().map(|panel| panel.curves.len()).max().unwrap_or(0);
     let content = html! {
         @for (number, panel) in panels.iter().enumerate() {
@@ -64,16 +65,16 @@ fn kinds(study: &RefinementStudy, lines: &[Line]) -> Panel {
     }
 }
 
-fn readings(study: &RefinementStudy, lines: &[Line]) -> Option<Panel> {
+fn readings(study: &RefinementStudy, lines: &[Line], area: &str) -> Option<Panel> {
     let line = lines.iter().find(|line| line.kind == Kind::Cells)?;
     let smooth: &[Quantity] = &[Quantity::MaxPressure, Quantity::Approach];
     let areas: &[Quantity] = &[Quantity::ContactArea, Quantity::StickArea];
     let readings = [
-        (smooth, Form::Plain, "pressure and approach, cell values"),
-        (smooth, Form::Between, "the same, sub-cell reconstruction"),
-        (smooth, Form::Extrapolated, "the same, Richardson extrapolation"),
-        (areas, Form::Plain, "contact and stick area by counting cells"),
-        (areas, Form::Between, "the same, sub-cell edge reconstruction"),
+        (smooth, Form::Plain, "pressure and approach, cell values".to_owned()),
+        (smooth, Form::Between, "the same, sub-cell reconstruction".to_owned()),
+        (smooth, Form::Extrapolated, "the same, Richardson extrapolation".to_owned()),
+        (areas, Form::Plain, format!("contact and stick {area} by counting cells")),
+        (areas, Form::Between, "the same, sub-cell edge reconstruction".to_owned()),
     ];
     let mut curves: Vec<Curve> = readings
         .into_iter()
@@ -84,7 +85,7 @@ fn readings(study: &RefinementStudy, lines: &[Line]) -> Option<Panel> {
                 let known = quantities.iter().filter_map(|quantity| errors[*quantity as usize]);
                 Some(([study.seconds(judged.place, form)?, known.reduce(f64::max)?], false))
             });
-            Curve { name: name.to_owned(), colour, points: points.collect() }
+            Curve { name, colour, points: points.collect() }
         })
         .collect();
     let (of_smooth, of_areas) = curves.split_at_mut(3);

@@ -17,6 +17,9 @@ pub(super) fn formula(
     cells: Option<Cells>,
     moves: bool,
 ) -> Option<Shape> {
+    if !judge.places.are_whole_in(&format!("{place}.parameters")) {
+        return None;
+    }
     let text = &given.expression;
     let before = judge.mistakes.len();
     let mut parameters = Vec::new();
@@ -138,7 +141,8 @@ mod tests {
             "parameters.R = NaN: must be finite",
             "nan",
         );
-        refused(BALL, &[(SPHERE, &with("\"x^2\"", "R = \"1\""))], "expected a number", "\"1\"");
+        // the expression names it: one mistake, not two
+        refused(BALL, &[(SPHERE, &with("\"x^2/R\"", "R = \"1\""))], "expected a number", "\"1\"");
     }
 
     #[test]

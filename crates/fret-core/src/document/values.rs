@@ -190,10 +190,11 @@ impl<T: Read> Read for Named<T> {
         };
         let mut all = Vec::new();
         for (key, value) in table {
-            let value = At::read(value, reader).map_err(|_| None)?;
-            all.push((At::new(key.get_ref().clone().into_owned(), key.span()), value));
+            if let Ok(value) = At::read(value, reader) {
+                all.push((At::new(key.get_ref().clone().into_owned(), key.span()), value));
+            }
         }
-        Ok(Self(all))
+        if all.len() == table.len() { Ok(Self(all)) } else { Err(None) }
     }
 }
 

@@ -1,4 +1,5 @@
-//! How far a contact reaches that slides: a soft, nearly incompressible layer is dragged along, and rises on one side.
+//! How far a contact reaches that slides: a soft, nearly incompressible layer is dragged along, and rises on one side; and so does a surface
+//! under friction much stronger than usual.
 
 use std::ops::ControlFlow;
 
@@ -12,6 +13,8 @@ use crate::solver::{ContactSolver, Coupling, SolveError, SolverSettings};
 
 /// Poisson's ratio from which on a layer under shear lifts and lowers its surface much.
 const NEARLY_INCOMPRESSIBLE: f64 = 0.4;
+/// Coefficient of friction above which any surface does.
+const STRONG: f64 = 1.0;
 /// Sides of the coarse grid in units of those without sliding, and how often they are doubled at the most.
 const WIDER: f64 = 1.5;
 const MOST_DOUBLINGS: usize = 3;
@@ -20,7 +23,7 @@ const MOST_DOUBLINGS: usize = 3;
 /// unless a layer is dragged along so far that its contact would reach the outermost cells.
 pub fn with_room_to_slide(case: &Case, size: [f64; 2]) -> [f64; 2] {
     let mut wanted = size;
-    if !is_dragged(case) {
+    if !is_dragged(case) && strongest(case).largest() <= STRONG {
         return size;
     }
     let pulled = |axis: &usize| case.stages.iter().any(|stage| stage.tangential[*axis].is_some());

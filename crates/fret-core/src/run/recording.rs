@@ -29,7 +29,7 @@ pub fn record(
         parts,
         normal_force: outcome.resultants.normal,
         approach: state.approach,
-        mean_gap: repeats.then(|| solved.gap.mean()).flatten(),
+        mean_gap: repeats.then(|| mean_gap(solved)).flatten(),
         tangential_force: outcome.resultants.tangential,
         shift: state.shift,
         actuator_approach: rig.actuator_approach(state.approach, outcome.resultants.normal),
@@ -119,6 +119,12 @@ pub fn kept(
         friction: one("friction", &coefficients)?,
         rest: None,
     })
+}
+
+/// Mean gap [length]: none, without rounding, where the surfaces touch everywhere.
+fn mean_gap(solved: &Increment) -> Option<f64> {
+    let touch_everywhere = solved.state.pressure.iter().all(|pressure| *pressure > 0.0);
+    if touch_everywhere { Some(0.0) } else { solved.gap.mean() }
 }
 
 /// Mean coefficient of friction over the contact, weighted with the pressure [-]: what sliding carries of the normal force. Over all cells
