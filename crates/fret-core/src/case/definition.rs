@@ -13,6 +13,7 @@ use crate::model::{
     HeightsSummary, Integration, Kinematics, LoadStep, MapSummary, Profile, ResidualStress, Rig, Scheme,
     WearRule,
 };
+use crate::solver::Coupling;
 use crate::subsurface::fatigue::LayerConstants;
 use crate::units::Units;
 
@@ -38,6 +39,9 @@ pub struct Case<M = CellMap, H = Heights> {
     pub periodic: bool,
     /// The two bodies.
     pub bodies: ContactPair,
+    /// The pressure at which the softer surface yields \[pressure\]; `None`: neither does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardness: Option<f64>,
     /// Residual stress of the lower and of the upper body.
     #[serde(default, skip_serializing_if = "are_none")]
     pub residual_stress: [ResidualStress; 2],
@@ -143,6 +147,12 @@ impl<M, H> Case<M, H> {
     /// Whether the bodies have a mean gap in place of an approach: periodic half-spaces, which a uniform pressure moves without bound.
     pub fn counts_mean_gap(&self) -> bool {
         self.periodic && uniform_response(&self.bodies).is_none()
+    }
+
+    /// How pressure and shear are solved, where they act on each other: in alternation where surfaces yield.
+    pub fn scheme_of(&self, coupling: Coupling) -> Scheme {
+        let alternates = self.hardness.is_some() && coupling == Coupling::Coupled;
+        if alternates { Scheme::Staggered } else { self.scheme }
     }
 
     /// Springs between the upper body and what is driven.

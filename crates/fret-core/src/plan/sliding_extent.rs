@@ -70,6 +70,7 @@ fn reach_on(case: &Case, size: [f64; 2], normal: Control, direction: usize) -> R
     let response = coarse_response(case, (&grid, size[0]), Components::ALL);
     // A start of a size: what does not converge from here is left to the run.
     let settings = SolverSettings {
+        scheme: case.scheme_of(Coupling::Coupled),
         integration: Integration::EndPoint,
         another_way: false,
         ..SolverSettings::new(1e-3)
@@ -77,7 +78,8 @@ fn reach_on(case: &Case, size: [f64; 2], normal: Control, direction: usize) -> R
     let friction = strongest(case);
     let gap = case.profile.gap(&grid);
     let mut solver = ContactSolver::new(grid, gap, &friction, Coupling::Coupled, response, settings, false)
-        .with_rig(case.springs());
+        .with_rig(case.springs())
+        .with_hardness(case.hardness);
     let mut tangential = [Control::Motion(0.0); 2];
     tangential[direction] = Control::Motion(size[direction]);
     let load = LoadStep { normal, tangential, ..LoadStep::FREE };

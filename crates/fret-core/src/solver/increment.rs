@@ -6,6 +6,7 @@ use ndarray::Array2;
 use super::coupled;
 use super::energy::StateBefore;
 use super::increment_problem::{IncrementProblem, Solved};
+use super::laws::complementarity::CellLaw;
 use super::laws::limit::sliding_fraction;
 use super::linear::preconditioner::CellWaves;
 use super::memory::{Before, Drift, GridTractions, LastIncrement};
@@ -33,11 +34,15 @@ impl ContactSolver<'_> {
             self.check_friction_carries(load, normal, sliding_fraction(self.settings.tolerance))?;
         }
         self.take_last_load_as(load, state);
+        self.check_hardness_bears(load)?;
         let mut start = self.pressure_from_coarse_grids(state, load, callback)?;
         let mut region = match &start {
             Some(pressure) => self.region_around(pressure, state),
             None => self.region_for(state, load),
         };
+        if !self.hardness_bears(load, region) {
+            region = Region::whole(self.grid.cells());
+        }
         let mut pace = self.pace(load).filter(|_| self.is_of_second_order());
         loop {
             let solved = self.solve_in(region, (start.as_ref(), pace), (state, load), callback);
@@ -56,10 +61,12 @@ impl ContactSolver<'_> {
             let (solved, after, outcome) = solved?;
             self.set_tilt(after.tilt);
             self.check(load, &after, &outcome, solved.solution.iterations)?;
+            self.take_plastic_depth(&after);
             let (gap, contact_area) = self.gap_and_area((region, load), &solved, &after)?;
             if self.overlaps_outside(region, &gap) {
                 region = whole;
                 start = start.map(|_| after.pressure);
+                self.take_plastic_depth(state);
                 continue;
             }
             let fraction = outcome.stick_cells as f64 / outcome.contact_cells.max(1) as f64;
@@ -105,6 +112,7 @@ impl ContactSolver<'_> {
             bodies,
             region,
         );
+        increment.normal = increment.normal.with_hardness(self.hardness);
         increment.pauses = self.pauses(load);
         increment.travels = self.travel > 0;
         increment.carried = self.carried.as_ref().map(|carried| region.gather_tangential(carried));
@@ -138,10 +146,15 @@ impl ContactSolver<'_> {
             self.solve_with(&mut operators, (&increment, &before), tractions, callback)
         };
         self.work += operators.take_work(region.len() as f64 / self.cells_of_whole());
-        let self_influence = operators.compliance.self_influence().tangential;
+        let influence = operators.compliance.self_influence();
+        let (self_influence, law) = (
+            influence.tangential,
+            CellLaw { self_influence: influence.normal, hardness: self.hardness },
+        );
         self.operators = Some(operators);
         self.memory.region = Some(region);
         let mut solved = solved?;
+        solved.give_way(law, self.settings.tolerance);
         let rule = (self_influence, self.settings.integration);
         let mut work = by_cell();
         let (after, outcome) = state_after(&increment, &solved, &before, rule, work.as_mut());

@@ -5,10 +5,13 @@ pub mod coarse_grids;
 pub mod grid_transfer;
 mod problem;
 mod projected_cg;
+mod yielding;
 
 use super::laws::complementarity::NormalResidual;
 use super::operators::RegionOperators;
+use super::prescribed::NormalLoad;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
+use crate::compliance::SurfaceCompliance;
 use crate::fields::lower;
 
 use active_set::Care;
@@ -29,7 +32,7 @@ pub struct NormalSolution {
 /// Iterations of projected conjugate gradients that need not halve the residual before the active set is tried.
 const MAX_STALLED: usize = 20;
 
-/// Solves the normal equations from a pressure without tension and with the force prescribed. Both fields end at the solution: pressure [pressure] and its normal displacement
+/// Solves the normal equations from a pressure without tension and with the force prescribed; where surfaces yield, from any. Both fields end at the solution: pressure [pressure] and its normal displacement
 /// [length].
 ///
 /// Projected conjugate gradients come first, the active set where the response is stiff; each takes over when the other stalls, waits longer and takes
@@ -51,6 +54,17 @@ pub fn solve_normal(
         if !tilt.on_all_cells(pressure) {
             return Err(SolveError::NotConverged { reached: f64::INFINITY, iterations: 0 });
         }
+    }
+    if let (Some(total), Some(hardness)) = (task.load.total, task.load.hardness)
+        && total > hardness * pressure.len() as f64
+    {
+        return Err(SolveError::NotConverged { reached: f64::INFINITY, iterations: 0 });
+    }
+    if let Some(hardness) = task.load.hardness
+        && !yielding::make_feasible(pressure, task, hardness)
+    {
+        let own = operators.compliance.self_influence().normal;
+        pressure.copy_from_slice(&first_pressure(task, own));
     }
     let fields = [pressure, displacement];
     let mut by_active_set = operators.preconditioner.is_stiff();
@@ -78,17 +92,26 @@ pub fn solve_normal(
     }
 }
 
-/// A first pressure: uniform over the eighth of the cells with the smallest gap under a force, the self-influences alone under an approach.
+/// A first pressure: uniform over the eighth of the cells with the smallest gap under a force, over more where the hardness asks for these; the
+/// self-influences alone under an approach.
 pub fn first_pressure(task: &NormalEquations<'_>, own: f64) -> Vec<f64> {
-    match task.load.total {
+    let NormalLoad { total, hardness, .. } = task.load;
+    match total {
         Some(total) => {
             let mut gaps: Vec<f64> = task.undeformed.to_vec();
             let eighth = (gaps.len() / 8).max(1);
+            let eighth = hardness.map_or(eighth, |hardness| {
+                eighth.max(yielding::cells_for(total, hardness, gaps.len()))
+            });
             let (_, limit, _) = gaps.select_nth_unstable_by(eighth - 1, f64::total_cmp);
             let limit = *limit;
             let count = task.undeformed.iter().filter(|gap| **gap <= limit).count();
             task.undeformed.iter().map(|gap| if *gap <= limit { total / count as f64 } else { 0.0 }).collect()
         }
-        None => task.undeformed.iter().map(|gap| ((task.load.approach - gap) / own).max(0.0) * 0.1).collect(),
+        None => {
+            let most = hardness.unwrap_or(f64::INFINITY);
+            let pressure = |gap: &f64| (((task.load.approach - gap) / own).max(0.0) * 0.1).min(most);
+            task.undeformed.iter().map(pressure).collect()
+        }
     }
 }

@@ -81,7 +81,8 @@ impl ContactSolver<'_> {
         let whole = Region::whole(self.grid.cells());
         let positions =
             CellPositions::new(centres(&self.grid, whole, 0), centres(&self.grid, whole, 1), false);
-        let normal = NormalLoad::new(state, load, Rig::RIGID, [positions.length, self.grid.cell_area()]);
+        let normal = NormalLoad::new(state, load, Rig::RIGID, [positions.length, self.grid.cell_area()])
+            .with_hardness(self.hardness);
         let grids = self.coarse.get_or_insert_with(|| {
             CoarseGrids::below(self.response.get(), &self.undeformed, (&positions, spacing), self.symmetry)
         });
