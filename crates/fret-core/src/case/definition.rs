@@ -13,7 +13,6 @@ use crate::model::{
     HeightsSummary, Integration, Kinematics, LoadStep, MapSummary, Profile, ResidualStress, Rig, Scheme,
     WearRule,
 };
-use crate::solver::Coupling;
 use crate::subsurface::fatigue::LayerConstants;
 use crate::units::Units;
 
@@ -147,12 +146,6 @@ impl<M, H> Case<M, H> {
     /// Whether the bodies have a mean gap in place of an approach: periodic half-spaces, which a uniform pressure moves without bound.
     pub fn counts_mean_gap(&self) -> bool {
         self.periodic && uniform_response(&self.bodies).is_none()
-    }
-
-    /// How pressure and shear are solved, where they act on each other: in alternation where surfaces yield.
-    pub fn scheme_of(&self, coupling: Coupling) -> Scheme {
-        let alternates = self.hardness.is_some() && coupling == Coupling::Coupled;
-        if alternates { Scheme::Staggered } else { self.scheme }
     }
 
     /// Springs between the upper body and what is driven.

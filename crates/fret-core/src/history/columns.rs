@@ -251,7 +251,9 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
     ),
     real("max_debris", "maximum thickness of the debris", LENGTH, |step| step.debris.max_thickness),
     real_or_none("mean_gap", "mean gap between surfaces that repeat", LENGTH, |step| step.mean_gap),
-    real("yielded_area", "area of the cells whose pressure is at the hardness", AREA, |step| step.plastic.area),
+    real("yielded_area", "area of the cells whose pressure is at the hardness", AREA, |step| {
+        step.plastic.area
+    }),
     real("plastic_volume", "plastic depth summed over the surface", VOLUME, |step| step.plastic.volume),
     real("max_plastic_depth", "maximum plastic depth", LENGTH, |step| step.plastic.max_depth),
     real(

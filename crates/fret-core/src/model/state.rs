@@ -216,8 +216,12 @@ impl ContactState {
         let motions = [self.approach, self.shift[0], self.shift[1], self.twist, tilt_x, tilt_y];
         let numbers = motions.into_iter().chain(self.bulk_stress.into_iter().flatten()).chain(self.roll);
         let energies = [self.dissipated_energy, self.elastic_energy, self.external_work, self.wear_work];
-        let mut numbers =
-            numbers.chain(energies).chain([self.unresolved_energy, self.bulk_work, self.debris_outflow, self.plastic_work]);
+        let mut numbers = numbers.chain(energies).chain([
+            self.unresolved_energy,
+            self.bulk_work,
+            self.debris_outflow,
+            self.plastic_work,
+        ]);
         let field = |field: &Array2<f64>| field.dim() == cells.into() && field.iter().all(|v| v.is_finite());
         let accumulated = self.accumulated.iter().flat_map(AccumulatedSlip::fields);
         let worn = self.worn_depth.iter().chain(&self.upper_worn_depth).chain(&self.debris);

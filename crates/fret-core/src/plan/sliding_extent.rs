@@ -70,7 +70,6 @@ fn reach_on(case: &Case, size: [f64; 2], normal: Control, direction: usize) -> R
     let response = coarse_response(case, (&grid, size[0]), Components::ALL);
     // A start of a size: what does not converge from here is left to the run.
     let settings = SolverSettings {
-        scheme: case.scheme_of(Coupling::Coupled),
         integration: Integration::EndPoint,
         another_way: false,
         ..SolverSettings::new(1e-3)

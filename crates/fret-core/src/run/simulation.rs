@@ -182,7 +182,7 @@ impl<'a> Simulation<'a> {
             plan.coupling,
             compliance.response,
             SolverSettings {
-                scheme: case.scheme_of(plan.coupling),
+                scheme: case.scheme,
                 integration: case.integration,
                 single_precision: plan.single_precision,
                 reuse_pressure: plan.leave_out.takes(Simplification::Pressure)

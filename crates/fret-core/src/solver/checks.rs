@@ -3,8 +3,8 @@
 
 use ndarray::Array2;
 
-use super::{Carried, ContactSolver, Outcome, SolveError};
 use super::region::Region;
+use super::{Carried, ContactSolver, Outcome, SolveError};
 use crate::model::{ContactState, LoadStep};
 
 impl ContactSolver<'_> {

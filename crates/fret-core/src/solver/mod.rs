@@ -60,8 +60,8 @@ use crate::model::{
 
 pub(crate) use contact_set::ContactSet;
 pub(crate) use contact_vector::ContactVector;
-pub(crate) use laws::complementarity::yields_from;
 pub(crate) use last_cycle::NUMBERS as NUMBERS_OF_CYCLE;
+pub(crate) use laws::complementarity::yields_from;
 pub(crate) use laws::friction::{
     FrictionLaw, bounds_on_grid as friction_bounds, dissipation, slip_until_open,
 };

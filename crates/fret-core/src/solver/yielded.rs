@@ -3,10 +3,14 @@
 
 use ndarray::Array2;
 
-use super::ContactSolver;
+use super::energy::StateBefore;
 use super::increment_problem::{IncrementProblem, Solved};
-use super::laws::complementarity::{CellLaw, length_scale};
-use crate::fields::{dot, sum};
+use super::laws::complementarity::{CellLaw, length_scale, yields_from};
+use super::operators::RegionOperators;
+use super::settings::{IterationCallback, SolveError};
+use super::tractions::Tractions;
+use super::{ContactSolver, Coupling};
+use crate::fields::{dot, largest, sum};
 use crate::model::ContactState;
 
 impl ContactSolver<'_> {
@@ -32,6 +36,35 @@ impl ContactSolver<'_> {
             self.move_gap(gap);
             self.unyielded = unyielded;
         }
+    }
+}
+
+impl ContactSolver<'_> {
+    /// Solves the equations of surfaces that may yield. Where nothing was at the hardness before they are solved as elastic ones first, which they
+    /// are as long as nothing is; `yields`: that would be in vain.
+    pub(super) fn solve_to_hardness(
+        &self,
+        operators: &mut RegionOperators,
+        (increment, before, yields): (&mut IncrementProblem<'_>, &StateBefore, bool),
+        mut tractions: Tractions,
+        callback: IterationCallback<'_>,
+    ) -> Result<Solved, SolveError> {
+        let Some(hardness) = self.hardness else {
+            return self.solve_with(operators, (increment, before), tractions, callback);
+        };
+        let limit = yields_from(hardness);
+        let is_below = || increment.state.pressure.iter().all(|pressure| *pressure < limit);
+        if !yields && (self.coupling == Coupling::Coupled || is_below()) {
+            match self.solve_with(operators, (increment, before), tractions.clone(), callback) {
+                Ok(solved) if largest(&solved.tractions.pressure) <= hardness => return Ok(solved),
+                Ok(solved) => tractions = solved.tractions,
+                Err(SolveError::NotConverged { .. }) => {}
+                Err(error) => return Err(error),
+            }
+            increment.start = Some(tractions.pressure.clone());
+        }
+        increment.normal = increment.normal.with_hardness(self.hardness);
+        self.solve_with(operators, (increment, before), tractions, callback)
     }
 }
 

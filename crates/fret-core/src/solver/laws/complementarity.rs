@@ -193,7 +193,8 @@ mod tests {
     #[test]
     fn flat_surfaces_that_are_not_displaced_have_a_residual() {
         let residual = |undeformed: [f64; 2]| {
-            normal_residual(&[2.0, 2.0], (&[0.0; 2], &undeformed), elastic(0.5), None, &mut Vec::new()).residual
+            normal_residual(&[2.0, 2.0], (&[0.0; 2], &undeformed), elastic(0.5), None, &mut Vec::new())
+                .residual
         };
         assert_eq!(residual([0.0; 2]), 0.0);
         // Half of the difference is the gap; the scale is 1e-5 times 0.5 times 2.
@@ -218,8 +219,14 @@ mod tests {
     fn what_hardly_presses_is_measured_by_the_digits_of_heights() {
         let residual = |gap: f64, displacement: f64| {
             let read = ([1.0, 1.0], [displacement; 2], [1.0, 1.0 + gap]);
-            normal_residual(&read.0, (&read.1, &read.2), elastic(1e-3), Some(1.0 + displacement), &mut Vec::new())
-                .residual
+            normal_residual(
+                &read.0,
+                (&read.1, &read.2),
+                elastic(1e-3),
+                Some(1.0 + displacement),
+                &mut Vec::new(),
+            )
+            .residual
         };
         assert!(residual(f64::EPSILON, 1e-15) < 1e-8);
         assert!((residual(1e-9, 1e-6) / 1e-3 - 1.0).abs() < 1e-6);
@@ -230,7 +237,8 @@ mod tests {
     #[test]
     fn a_load_that_moves_nothing_is_measured_by_the_self_influence() {
         let residual = |gap: f64| {
-            normal_residual(&[1.0, 1.0], (&[0.0; 2], &[0.0, gap]), elastic(1.0), Some(0.0), &mut Vec::new()).residual
+            normal_residual(&[1.0, 1.0], (&[0.0; 2], &[0.0, gap]), elastic(1.0), Some(0.0), &mut Vec::new())
+                .residual
         };
         assert_eq!(residual(0.0), 0.0);
         assert!(residual(1e-3) > 1.0 && residual(1e-3).is_finite(), "{}", residual(1e-3));

@@ -100,9 +100,8 @@ pub fn first_pressure(task: &NormalEquations<'_>, own: f64) -> Vec<f64> {
         Some(total) => {
             let mut gaps: Vec<f64> = task.undeformed.to_vec();
             let eighth = (gaps.len() / 8).max(1);
-            let eighth = hardness.map_or(eighth, |hardness| {
-                eighth.max(yielding::cells_for(total, hardness, gaps.len()))
-            });
+            let eighth = hardness
+                .map_or(eighth, |hardness| eighth.max(yielding::cells_for(total, hardness, gaps.len())));
             let (_, limit, _) = gaps.select_nth_unstable_by(eighth - 1, f64::total_cmp);
             let limit = *limit;
             let count = task.undeformed.iter().filter(|gap| **gap <= limit).count();

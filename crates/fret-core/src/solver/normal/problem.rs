@@ -189,9 +189,7 @@ impl<'a> NormalIteration<'a> {
         let [heights, count, work, load] = each_cell(&Measure, read, [&mut self.gap]);
         let NormalLoad { total, approach, hardness, .. } = self.task.load;
         let approach = match (total, hardness) {
-            (Some(_), Some(hardness)) => {
-                height_below(hardness, self.pressure, &self.gap).unwrap_or(approach)
-            }
+            (Some(_), Some(hardness)) => height_below(hardness, self.pressure, &self.gap).unwrap_or(approach),
             (Some(_), None) if count > 0.0 => heights / count,
             _ => approach,
         };
