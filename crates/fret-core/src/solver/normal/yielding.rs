@@ -3,24 +3,27 @@
 
 use super::super::laws::complementarity::yields_from;
 use super::problem::NormalEquations;
-use crate::fields::{CellRule, CellSize, Reals, each_cell, sum};
+use crate::fields::{CellRule, CellSize, Reals, each_cell};
 
-/// Passes at the most in which what is missing of a force is found; most take two.
+/// Passes at the most in which the shift is found that restores a force; most take three to six.
 const MOST_PASSES: usize = 60;
-/// A force is found when this fraction of it is missing: rounding.
-const FOUND: f64 = 1e-15;
-/// Less room than this fraction of what is missing is none.
-const NO_ROOM: f64 = 1e-3;
+/// A force is restored when no more than this fraction of it is missing: rounding.
+const FOUND: f64 = 1e-14;
 /// First pressures under a force are at most this fraction of the hardness, where there are cells enough.
 const FIRST: f64 = 0.5;
 
 /// Brings a pressure to start from to between 0 and the hardness, and to the force where one is prescribed. False where its loaded cells
 /// cannot carry that.
 pub fn make_feasible(pressure: &mut [f64], task: &NormalEquations<'_>, hardness: f64) -> bool {
-    each_cell(&Clip { hardness }, [], [pressure]);
+    clip(pressure, hardness);
     let Some(total) = task.load.total else { return true };
     let loaded: Vec<f64> = pressure.iter().map(|p| f64::from(u8::from(*p > 0.0))).collect();
     restore(pressure, &loaded, total, hardness)
+}
+
+/// Cuts pressures to between 0 and the hardness.
+pub fn clip(pressure: &mut [f64], hardness: f64) {
+    each_cell(&Clip { hardness }, [], [pressure]);
 }
 
 /// Cells that carry a force at the start, of `cells` in all.
@@ -28,33 +31,52 @@ pub fn cells_for(total: f64, hardness: f64, cells: usize) -> usize {
     ((total / (FIRST * hardness)).ceil() as usize).clamp(1, cells)
 }
 
-/// Restores the sum of pressures between 0 and the hardness: in proportion to `p (H - p)`, so that the edges of the contact and of what yields
-/// stay where they are; where nothing lies between, on the active cells. False where these have no room for it.
+/// Restores the sum of pressures: a shift of all active ones that is cut to what is allowed, which is the nearest point of those (projection);
+/// a shift of all cells where the active ones cannot carry it. False where these cannot, either.
 pub fn restore(pressure: &mut [f64], active: &[f64], total: f64, hardness: f64) -> bool {
-    for _ in 0..MOST_PASSES {
-        let [found, room] = each_cell(&Room { hardness }, [&*pressure], []);
-        let missing = total - found;
-        if missing.abs() <= FOUND * total {
-            return true;
-        }
-        if room < NO_ROOM * missing.abs() {
-            let share = room_on(pressure, active, missing, hardness);
-            let Some(share) = share else { return false };
-            each_cell(&OnActive { hardness, share }, [active], [pressure]);
-        } else {
-            let share = (missing / room).clamp(-1.0, 1.0);
-            each_cell(&Fill { hardness, share }, [], [pressure]);
-        }
+    if let Some(shift) = shift_to(pressure, active, total, hardness) {
+        each_cell(&Shift { hardness, shift }, [active], [pressure]);
+        return true;
     }
-    let off = total - sum(pressure);
-    off.abs() <= 1e3 * FOUND * total
+    let all = vec![1.0; pressure.len()];
+    let Some(shift) = shift_to(pressure, &all, total, hardness) else { return false };
+    each_cell(&Shift { hardness, shift }, [&all], [pressure]);
+    true
 }
 
-/// Fraction of what active cells could still take, or of what they carry, that makes up for what is `missing`: positive or negative.
-fn room_on(pressure: &[f64], active: &[f64], missing: f64, hardness: f64) -> Option<f64> {
-    let [carried, left] = each_cell(&OfActive { hardness }, [pressure, active], []);
-    let share = missing / if missing > 0.0 { left } else { carried };
-    (share.abs() <= 1.0).then_some(share)
+/// The shift of the active pressures under which all of them together have a sum; `None` where none has. The sum rises with the shift along
+/// straight pieces: Newton's method, inside a bracket.
+fn shift_to(pressure: &[f64], active: &[f64], total: f64, hardness: f64) -> Option<f64> {
+    let [rest, count] = each_cell(&Rest, [pressure, active], []);
+    let slack = FOUND * total;
+    if count == 0.0 || rest > total + slack || rest + count * hardness < total - slack {
+        return None;
+    }
+    let is_active = |(p, active): (&f64, &f64)| (*active > 0.0).then_some(*p);
+    let ends = pressure.iter().zip(active).filter_map(is_active);
+    let (least, most) =
+        ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), p| (least.min(p), most.max(p)));
+    let (mut low, mut high) = (-most, hardness - least);
+    let mut shift = 0.0_f64.max(low).min(high);
+    for _ in 0..MOST_PASSES {
+        let [sum, inside] = each_cell(&Shifted { hardness, shift }, [pressure, active], []);
+        let off = rest + sum - total;
+        if off.abs() <= slack {
+            break;
+        }
+        if off > 0.0 {
+            high = shift;
+        } else {
+            low = shift;
+        }
+        let next = shift - off / inside;
+        let next = if low < next && next < high { next } else { 0.5 * (low + high) };
+        if next == shift {
+            break;
+        }
+        shift = next;
+    }
+    Some(shift)
 }
 
 struct Clip {
@@ -69,54 +91,43 @@ impl CellRule<0, 1, 0> for Clip {
     }
 }
 
-/// Sums of pressure, and of it times how far it is from the hardness.
-struct Room {
-    hardness: f64,
-}
+/// Sums of the pressures that are not active, and of the active cells.
+struct Rest;
 
-impl CellRule<1, 0, 2> for Room {
-    #[inline(always)]
-    fn at<R: Reals>(&self, [p]: [R; 1], _: &mut [R; 0]) -> [R; 2] {
-        [p, p - p * p / self.hardness]
-    }
-}
-
-struct Fill {
-    hardness: f64,
-    share: f64,
-}
-
-impl CellRule<0, 1, 0> for Fill {
-    #[inline(always)]
-    fn at<R: Reals>(&self, _: [R; 0], [p]: &mut [R; 1]) -> [R; 0] {
-        let filled = *p + (*p - *p * *p / self.hardness) * self.share;
-        *p = filled.max(p.all(0.0)).min(p.all(self.hardness));
-        []
-    }
-}
-
-/// Sums over active cells of pressure, and of what they could still take.
-struct OfActive {
-    hardness: f64,
-}
-
-impl CellRule<2, 0, 2> for OfActive {
+impl CellRule<2, 0, 2> for Rest {
     #[inline(always)]
     fn at<R: Reals>(&self, [p, active]: [R; 2], _: &mut [R; 0]) -> [R; 2] {
-        [active * p, active * (p.all(self.hardness) - p)]
+        let zero = p.all(0.0);
+        [active.if_at_most(zero, p, zero), active]
     }
 }
 
-struct OnActive {
+/// Sums of the active pressures after a shift, and of the active cells between the bounds then.
+struct Shifted {
     hardness: f64,
-    share: f64,
+    shift: f64,
 }
 
-impl CellRule<1, 1, 0> for OnActive {
+impl CellRule<2, 0, 2> for Shifted {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [p, active]: [R; 2], _: &mut [R; 0]) -> [R; 2] {
+        let (zero, hardness) = (p.all(0.0), p.all(self.hardness));
+        let shifted = p + self.shift;
+        let inside = shifted.if_at_most(zero, zero, hardness.if_at_most(shifted, zero, active));
+        [active * shifted.max(zero).min(hardness), inside]
+    }
+}
+
+struct Shift {
+    hardness: f64,
+    shift: f64,
+}
+
+impl CellRule<1, 1, 0> for Shift {
     #[inline(always)]
     fn at<R: Reals>(&self, [active]: [R; 1], [p]: &mut [R; 1]) -> [R; 0] {
-        let room = if self.share > 0.0 { p.all(self.hardness) - *p } else { *p };
-        *p = *p + active * room * self.share;
+        let (zero, hardness) = (p.all(0.0), p.all(self.hardness));
+        *p = active.if_at_most(zero, *p, (*p + self.shift).max(zero).min(hardness));
         []
     }
 }
@@ -144,7 +155,7 @@ impl CellRule<1, 3, 2> for Sets {
     }
 }
 
-/// Pressure after a step, between 0 and the hardness; of inactive cells the one to which they have gone or go.
+/// Pressure after a step, not yet cut to between 0 and the hardness; of inactive cells that of the two to which they have gone or go.
 pub struct Target {
     pub step: f64,
     pub constant: f64,
@@ -158,7 +169,7 @@ impl CellRule<5, 1, 0> for Target {
         let (zero, hardness) = (p.all(0.0), p.all(self.hardness));
         let moved = p + (last * self.beta - z + self.constant) * self.step;
         let rests = zero.if_at_most(gap, hardness.if_at_most(p, hardness, zero), hardness);
-        *target = active.if_at_most(zero, rests, moved.max(zero).min(hardness));
+        *target = active.if_at_most(zero, rests, moved);
         []
     }
 }
@@ -266,23 +277,26 @@ impl CellRule<1, 2, 2> for Change {
 mod tests {
     use super::*;
 
-    /// A force is restored exactly, within the bounds; empty cells and cells at the hardness stay.
+    /// A force is restored exactly, within the bounds; cells that are not active stay.
     #[test]
     fn a_force_is_restored_between_the_bounds() {
         let start = [0.0, 0.2, 1.5, 3.9, 4.0];
-        for total in [5.0, 9.0, 9.6, 12.0, 15.9] {
+        for total in [4.0, 5.0, 9.0, 9.6, 12.0, 15.9, 16.0] {
             let mut pressure = start;
             assert!(restore(&mut pressure, &[0.0, 1.0, 1.0, 1.0, 0.0], total, 4.0));
             let off = pressure.iter().sum::<f64>() - total;
-            assert!(off.abs() < 1e-13, "{total}: {off:e}");
+            assert!(off.abs() < 1e-12, "{total}: {off:e}");
             assert!(pressure.iter().all(|p| (0.0..=4.0).contains(p)), "{pressure:?}");
             assert_eq!([pressure[0], pressure[4]], [0.0, 4.0]);
         }
-        // Three cells between carry no more than the hardness each, and nothing less than none.
-        assert!(!restore(&mut start.clone(), &[0.0, 1.0, 1.0, 1.0, 0.0], 16.5, 4.0));
-        // Where all are empty or at the hardness, the active ones alike.
-        let mut pressure = [0.0, 0.0, 4.0];
-        assert!(restore(&mut pressure, &[1.0, 1.0, 0.0], 6.0, 4.0));
-        assert_eq!(pressure, [1.0, 1.0, 4.0]);
+        // Three cells between carry no more than the hardness each, and five cells no more than that.
+        let mut pressure = start;
+        assert!(restore(&mut pressure, &[0.0, 1.0, 1.0, 1.0, 0.0], 18.0, 4.0));
+        assert!((pressure.iter().sum::<f64>() - 18.0).abs() < 1e-12 && pressure[0] < pressure[1]);
+        assert!(!restore(&mut start.clone(), &[1.0; 5], 20.5, 4.0));
+        // The shift is the same for all that are not at a bound, far outside or not.
+        let mut pressure = [-3.0, 0.5, 9.0, 2.0];
+        assert!(restore(&mut pressure, &[1.0; 4], 7.0, 4.0));
+        assert!(pressure.iter().zip([0.0, 0.75, 4.0, 2.25]).all(|(p, exact)| (p - exact).abs() < 1e-12));
     }
 }
