@@ -8,7 +8,9 @@ use fret_core::case::{Attachments, Case};
 use fret_core::history::{History, Start};
 use fret_core::plan::{LeaveOut, Plan, Simplification};
 use fret_core::run::{Silent, Simulation};
-use fret_validation::{Sphere, off_first_law, pressed_on_half_space, run, solved, solved_with};
+use fret_validation::{
+    Sphere, by_end_points, off_first_law, pressed_on_half_space, run, solved, solved_with,
+};
 use ndarray::Array2;
 
 /// A case whose lower body has a hardness.
@@ -213,7 +215,7 @@ fn a_stiff_rough_surface_is_carried_by_its_bearing_area() {
             "[profile.heights]\nvalues = { array = 0 }",
             &format!("normal_force = {:e}", share * hardness),
         );
-        let history = solved_with(&with_hardness(&text, hardness), &[heights.clone()]);
+        let history = solved_with(&with_hardness(&text, hardness), std::slice::from_ref(&heights));
         let pressure = history.fields[0].pressure.as_ref().unwrap();
         let mut by_height: Vec<(f64, f64)> = heights.iter().copied().zip(pressure.iter().copied()).collect();
         by_height.sort_by(|one, other| other.0.total_cmp(&one.0));
@@ -309,10 +311,12 @@ fn friction_is_bounded_by_the_pressure_of_yielded_surfaces() {
     }
 }
 
-/// Bodies whose shear does not move the surfaces normally, solved as if it did.
+/// Bodies whose shear does not move the surfaces normally, solved as if it did. By end points: what turns is followed along other paths in the
+/// iterations, to 4e-6 of the shift.
 #[test]
 fn pressure_and_shear_in_alternation_find_what_one_after_the_other_find() {
-    let text = keeping(&pulled(true, &loads(&rubbed(true)))).replace("tolerance = 1e-8", "tolerance = 1e-10");
+    let text = keeping(&by_end_points(&pulled(true, &loads(&rubbed(true)))));
+    let text = text.replace("tolerance = 1e-8", "tolerance = 1e-10");
     let [one, other] = [LeaveOut::ALL, LeaveOut::all_but(Simplification::Coupling)].map(|leave_out| {
         let plan = Plan::leaving_out(Case::from_toml(&text, "case.toml").unwrap(), leave_out).unwrap();
         Simulation::new(&plan).run(&mut Silent).unwrap()

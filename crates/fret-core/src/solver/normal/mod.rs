@@ -2,6 +2,8 @@
 
 mod active_set;
 pub mod coarse_grids;
+mod equations;
+mod first_pressure;
 pub mod grid_transfer;
 mod problem;
 mod projected_cg;
@@ -9,13 +11,13 @@ mod yielding;
 
 use super::laws::complementarity::NormalResidual;
 use super::operators::RegionOperators;
-use super::prescribed::NormalLoad;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use crate::compliance::SurfaceCompliance;
 use crate::fields::lower;
 
 use active_set::Care;
-pub use problem::NormalEquations;
+pub use equations::NormalEquations;
+pub use first_pressure::first_pressure;
 use problem::{Ending, NormalIteration};
 
 /// What the normal solver reached.
@@ -61,7 +63,7 @@ pub fn solve_normal(
         return Err(SolveError::NotConverged { reached: f64::INFINITY, iterations: 0 });
     }
     if let Some(hardness) = task.load.hardness
-        && !yielding::make_feasible(pressure, task, hardness)
+        && !yielding::make_feasible(pressure, task.load.total, hardness)
     {
         let own = operators.compliance.self_influence().normal;
         pressure.copy_from_slice(&first_pressure(task, own));
@@ -89,28 +91,5 @@ pub fn solve_normal(
             care = care.more();
         }
         by_active_set = !by_active_set;
-    }
-}
-
-/// A first pressure: uniform over the eighth of the cells with the smallest gap under a force, over more where the hardness asks for these; the
-/// self-influences alone under an approach.
-pub fn first_pressure(task: &NormalEquations<'_>, own: f64) -> Vec<f64> {
-    let NormalLoad { total, hardness, .. } = task.load;
-    match total {
-        Some(total) => {
-            let mut gaps: Vec<f64> = task.undeformed.to_vec();
-            let eighth = (gaps.len() / 8).max(1);
-            let eighth = hardness
-                .map_or(eighth, |hardness| eighth.max(yielding::cells_for(total, hardness, gaps.len())));
-            let (_, limit, _) = gaps.select_nth_unstable_by(eighth - 1, f64::total_cmp);
-            let limit = *limit;
-            let count = task.undeformed.iter().filter(|gap| **gap <= limit).count();
-            task.undeformed.iter().map(|gap| if *gap <= limit { total / count as f64 } else { 0.0 }).collect()
-        }
-        None => {
-            let most = hardness.unwrap_or(f64::INFINITY);
-            let pressure = |gap: &f64| (((task.load.approach - gap) / own).max(0.0) * 0.1).min(most);
-            task.undeformed.iter().map(pressure).collect()
-        }
     }
 }

@@ -1,36 +1,19 @@
-//! The frictionless problem in a region: its equations, the fields both iterations work on, and how they report.
+//! The frictionless problem in a region: the fields both iterations work on, and how they report.
 
 use super::super::laws::complementarity::{CellLaw, NormalResidual, height_below, length_scale};
 use super::super::laws::projection::project_pressure;
-use super::super::laws::rigid_motions::CellPositions;
 use super::super::laws::tilt_motions::TiltMotions;
 use super::super::operators::RegionOperators;
 use super::super::prescribed::NormalLoad;
 use super::super::settings::{IterationCallback, SolveError};
+use super::equations::NormalEquations;
+use super::first_pressure::first_pressure;
 use super::yielding;
 use crate::compliance::SurfaceCompliance;
 use crate::fields::{CellRule, Reals, each_cell, lower};
 
 /// Iterations at the most, of both methods together.
 const MOST_ITERATIONS: usize = 8000;
-
-/// What the normal equations of one increment ask for, over the cells of a region.
-#[derive(Debug)]
-pub struct NormalEquations<'a> {
-    /// Gap before deformation, with whatever else moves the surfaces at given shear [length].
-    pub undeformed: &'a [f64],
-    /// What is prescribed. What the machine gives is in the displacements while the problem is solved.
-    pub load: NormalLoad,
-    /// Where the cells are.
-    pub positions: &'a CellPositions,
-}
-
-impl NormalEquations<'_> {
-    /// The motions along the normal, where a moment is prescribed.
-    pub fn tilt(&self) -> Option<TiltMotions> {
-        TiltMotions::of(&self.load, self.positions, 0..self.undeformed.len())
-    }
-}
 
 /// How an iteration ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -164,8 +147,8 @@ impl<'a> NormalIteration<'a> {
     /// Brings pressure to what is allowed; pressure on all cells, where what there is carries no such force or moment.
     pub fn project_pressure(&mut self) {
         if let Some(hardness) = self.task.load.hardness {
-            if !yielding::make_feasible(self.pressure, self.task, hardness) {
-                self.pressure.copy_from_slice(&super::first_pressure(self.task, self.self_influence));
+            if !yielding::make_feasible(self.pressure, self.task.load.total, hardness) {
+                self.pressure.copy_from_slice(&first_pressure(self.task, self.self_influence));
             }
             return;
         }

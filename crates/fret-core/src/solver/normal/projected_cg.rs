@@ -124,7 +124,7 @@ impl Direction {
             each_cell(&target, [steepest, active, last_change, pressure, gap], [change]);
             let carried = total.is_none_or(|total| yielding::restore(change, active, total, hardness));
             yielding::clip(change, hardness);
-            each_cell(&ChangeTo { fraction: 1.0 }, [&*pressure], [change]);
+            each_cell(&ChangeTo { fraction: 1.0 }, [pressure], [change]);
             return carried;
         }
         let NormalIteration { steepest, active, last_change, pressure, change, tilt, .. } = &mut *problem;

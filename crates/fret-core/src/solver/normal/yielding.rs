@@ -2,7 +2,6 @@
 //! tension cells at the hardness are to more pressure, with the sign of the gap turned round.
 
 use super::super::laws::complementarity::yields_from;
-use super::problem::NormalEquations;
 use crate::fields::{CellRule, CellSize, Reals, each_cell};
 
 /// Passes at the most in which the shift is found that restores a force; most take three to six.
@@ -14,9 +13,9 @@ const FIRST: f64 = 0.5;
 
 /// Brings a pressure to start from to between 0 and the hardness, and to the force where one is prescribed. False where its loaded cells
 /// cannot carry that.
-pub fn make_feasible(pressure: &mut [f64], task: &NormalEquations<'_>, hardness: f64) -> bool {
+pub fn make_feasible(pressure: &mut [f64], total: Option<f64>, hardness: f64) -> bool {
     clip(pressure, hardness);
-    let Some(total) = task.load.total else { return true };
+    let Some(total) = total else { return true };
     let loaded: Vec<f64> = pressure.iter().map(|p| f64::from(u8::from(*p > 0.0))).collect();
     restore(pressure, &loaded, total, hardness)
 }
