@@ -162,7 +162,7 @@ pub fn by_end_points(text: &str) -> String {
 }
 
 /// How far the energies of any increment are from the first law: the change of the external work less those of what is stored, dissipated,
-/// gone with wear and unresolved, over the largest of these. What is stored counts by 1e-5: it is rounded to some 1e-14.
+/// gone with wear or by yielding and unresolved, over the largest of these. What is stored counts by 1e-5: it is rounded to some 1e-14.
 ///
 /// `start`: what was stored at the beginning of the history.
 pub fn off_first_law(history: &History, start: f64) -> f64 {
@@ -172,10 +172,11 @@ pub fn off_first_law(history: &History, start: f64) -> f64 {
             -step.elastic_energy,
             -step.dissipated_energy,
             -step.wear_work,
+            -step.plastic.work,
             -step.unresolved_energy,
         ]
     };
-    let mut before = [0.0, -start, 0.0, 0.0, 0.0];
+    let mut before = [0.0, -start, 0.0, 0.0, 0.0, 0.0];
     let mut worst = 0.0_f64;
     for step in &history.steps {
         let now = energies(step);

@@ -26,6 +26,7 @@ mod friction_on_patches;
 mod friction_work;
 mod frictional_counts;
 mod hard_increments;
+mod hardness;
 mod histories;
 mod interfaces;
 mod invariants;

@@ -147,6 +147,25 @@ fn behind_a_machine_that_gives() {
     }
 }
 
+/// Surfaces that yield while they are pressed, and again under a larger force: of bodies that couple and of bodies that do not.
+#[test]
+fn with_surfaces_that_yield() {
+    let more = "[[load]]\nnormal_force = 0.2\nincrements = 1\n[[load]]\nnormal_force = 1.3\nincrements = 2\n";
+    for (head, name) in [
+        (HEAD.replace("rigid = true", "substrate = { young = 210e9, poisson = 0.3 }"), "alike"),
+        (coated(), "coated"),
+    ] {
+        let head = head
+            .replace("[lower]\n", "[lower]\nhardness = 250e6\n")
+            .replace("\"worn_depth\"", "\"plastic_depth\"");
+        let whole = resumed_anywhere(&(head + TURNED + more));
+        let volumes: Vec<f64> = whole.steps.iter().map(|step| step.plastic.volume).collect();
+        println!("{name}: plastic volumes {volumes:?}");
+        assert!(volumes[2] > 0.0 && volumes.last() > volumes.get(2), "{volumes:?}");
+        assert!(whole.state.plastic_depth.is_some());
+    }
+}
+
 #[test]
 fn with_wear_in_blocks_of_cycles() {
     for head in [HEAD.to_owned(), coated()] {

@@ -19,6 +19,7 @@ FieldName = Literal[
     "lower_worn_depth",
     "upper_worn_depth",
     "debris",
+    "plastic_depth",
     "friction_work",
     "friction",
 ]

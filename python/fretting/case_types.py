@@ -350,7 +350,7 @@ class Output(TypedDict):
     fields: NotRequired[Sequence[str]]
     """
     Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`" (of bodies that move against each other also of each), "debris",
-    "`friction_work`" (energy that friction dissipates in the increment by area), "friction". Default: pressure, shear, slip, zone.
+    "`plastic_depth`", "`friction_work`" (energy that friction dissipates in the increment by area), "friction". Default: pressure, shear, slip, zone.
     """
 
 
@@ -1330,6 +1330,11 @@ class Body(TypedDict):
     electrical_resistivity: NotRequired[float]
     """
     Electrical resistivity [resistance x length], positive; of what is rigid: the body, or the base of its coatings.
+    """
+    hardness: NotRequired[float]
+    """
+    Hardness of this body's surface [pressure]: the contact pressure does not exceed that of the softer surface, which yields there and keeps
+    the plastic depth (elastic - perfectly plastic; about three times the yield strength). Default: it does not yield.
     """
     profile: NotRequired[Profile]
     """

@@ -46,7 +46,8 @@ class History:
         with the pressure), ``elastic_energy``, ``external_work``, ``wear_work``, ``unresolved_energy``, ``roll_x``,
         ``roll_y``, ``creepage_x``, ``creepage_y``, ``spin``, ``rolling_friction`` (the last four by
         distance rolled), ``debris_volume``, ``debris_outflow`` (since the start), ``max_debris``, ``mean_gap`` (NaN
-        where surfaces do not repeat) (float); ``regime`` (str).
+        where surfaces do not repeat), ``yielded_area``, ``plastic_volume``, ``max_plastic_depth``, ``plastic_work``
+        (of surfaces with a hardness) (float); ``regime`` (str).
     x, y : ndarray
         Coordinates of the cell centres [length], shapes (nx,) and (ny,); of a line contact `y` is one zero.
     stages : list of str
@@ -203,7 +204,7 @@ class History:
         name : str
             ``"pressure"``, ``"shear_x"``, ``"shear_y"``, ``"slip_x"``, ``"slip_y"``, ``"gap"``, ``"zone"``,
             ``"worn_depth"``, ``"lower_worn_depth"``, ``"upper_worn_depth"``, ``"debris"``,
-            ``"friction_work"``, ``"friction"``, ``"shear"`` or ``"slip"``.
+            ``"plastic_depth"``, ``"friction_work"``, ``"friction"``, ``"shear"`` or ``"slip"``.
             ``lower_worn_depth``, ``upper_worn_depth``: of each body in its own frame, kept with ``worn_depth`` where
             ``kinematics.displacement = "finite"``; ``debris``: its thickness, of a case with ``wear.debris``;
             ``friction_work``: energy dissipated in the increment by area.

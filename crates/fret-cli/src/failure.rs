@@ -190,6 +190,7 @@ fn asks_for_another_case(error: &RunError) -> bool {
         RunError::ContactAtEdge { .. }
             | RunError::AboveSliding { .. }
             | RunError::AboveFullSlip { .. }
+            | RunError::AboveHardness { .. }
             | RunError::GapClosed { .. }
             | RunError::OutOfMemory { error: MemoryError::TooLittle { .. }, .. }
     )

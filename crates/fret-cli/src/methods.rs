@@ -3,6 +3,7 @@
 use fret_core::case::Case;
 use fret_core::model::{Body, Dimension, Integration};
 use fret_core::plan::{Coupling, Plan};
+use fret_core::units::Units;
 
 use crate::figures::counted;
 
@@ -52,6 +53,13 @@ pub fn paragraph<M, H>(
     }
     if case.kinematics.is_finite() {
         sentences.push("The surface of the upper body moved with it (finite displacement).".to_owned());
+    }
+    if let Some(hardness) = case.hardness {
+        let unit = Units::after(case.units.as_ref(), "pressure", case.dimension());
+        sentences.push(format!(
+            "The contact pressure was bounded by a hardness of {}{unit}: the softer surface was elastic and perfectly plastic.",
+            short(hardness)
+        ));
     }
     sentences.push(friction(case, *coupling));
     let order = if *coupling != Coupling::Frictionless && case.integration == Integration::SecondOrder {

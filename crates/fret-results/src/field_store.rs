@@ -35,6 +35,8 @@ pub struct FieldStore {
     wears: bool,
     /// The same of debris.
     has_debris: bool,
+    /// The same of the plastic depth.
+    yields: bool,
     /// Whether chunks end with a checksum.
     is_checked: bool,
     /// Numbers of the increments along `increment`.
@@ -124,6 +126,7 @@ impl FieldStore {
         let is_filled = |array: &&Field| match array.asked_as {
             "worn_depth" => self.wears,
             "debris" => self.has_debris,
+            "plastic_depth" => self.yields,
             _ => true,
         };
         self.arrays.iter().copied().filter(is_filled)
@@ -159,6 +162,7 @@ impl FieldStore {
             wears: plan.case.wear.is_some() || starts_with(|state| state.worn_depth.is_some()),
             has_debris: plan.case.wear.as_ref().is_some_and(|wear| wear.debris.is_some())
                 || starts_with(|state| state.debris.is_some()),
+            yields: plan.case.hardness.is_some() || starts_with(|state| state.plastic_depth.is_some()),
             is_checked: !is_plain,
             steps: if grows { grown } else { plan.case.kept_increments() },
             kept: 0,

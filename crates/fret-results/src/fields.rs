@@ -53,10 +53,12 @@ impl Fields {
     /// When it is not what that run has written.
     pub fn read(path: &Path, record: &Record, rows: usize) -> Result<Self, ResultsError> {
         let (case, grid) = (&record.plan.case, record.plan.grid);
-        // Where nothing wears the wear depth is not kept, also where it was asked for; nor debris where none stays.
+        // Where nothing wears the wear depth is not kept, also where it was asked for; nor debris where none
+        // stays, nor the plastic depth where nothing yields.
         let is_filled = |name: &str| {
             let is_kept = match name {
                 "worn_depth" => case.wear.is_some(),
+                "plastic_depth" => case.hardness.is_some(),
                 "debris" => case.wear.as_ref().is_some_and(|wear| wear.debris.is_some()),
                 _ => true,
             };

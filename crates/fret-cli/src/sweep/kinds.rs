@@ -5,7 +5,7 @@ use fret_core::model::controls::ways;
 use super::key::words_of;
 
 /// Last words of keys that have a unit, and its kind.
-const KINDS: [(&str, &str); 30] = [
+const KINDS: [(&str, &str); 31] = [
     ("size", "length"),
     ("datum", "length"),
     ("thickness", "length"),
@@ -31,6 +31,7 @@ const KINDS: [(&str, &str); 30] = [
     ("young", "pressure"),
     ("max_shear", "pressure"),
     ("yield_strength", "pressure"),
+    ("hardness", "pressure"),
     ("residual_stress", "pressure"),
     ("wear_coefficient", "1/pressure"),
     // Of an interface; of the machine below.

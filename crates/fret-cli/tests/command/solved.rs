@@ -10,7 +10,8 @@ const COLUMNS: &str = "increment,stage,normal_force,approach,tangential_force_x,
                        full_grid_convolutions,parts,worn_volume,max_worn_depth,tilt_x,tilt_y,tilt_moment_x,tilt_moment_y,bulk_stress_x,\
                        bulk_stress_y,upper_bulk_stress_x,upper_bulk_stress_y,bulk_work,actuator_x,actuator_y,actuator_approach,\
                        friction_coefficient,elastic_energy,external_work,wear_work,unresolved_energy,roll_x,roll_y,creepage_x,creepage_y,spin,\
-                       rolling_friction,debris_volume,debris_outflow,max_debris,mean_gap";
+                       rolling_friction,debris_volume,debris_outflow,max_debris,mean_gap,yielded_area,\
+                       plastic_volume,max_plastic_depth,plastic_work";
 
 /// Increments of the small case: 3 of the indentation, 2 cycles of 8.
 const INCREMENTS: usize = 19;

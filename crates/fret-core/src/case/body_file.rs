@@ -26,11 +26,19 @@ pub(super) struct BodyFile {
     pub constants: RigidConstantsFile,
     /// Shape of this body's surface: its distance from the plane of first touch.
     pub profile: Option<At<ProfileFile>>,
+    /// Hardness of this body's surface [pressure]: the contact pressure does not exceed that of the softer surface, which yields there and keeps
+    /// the plastic depth (elastic - perfectly plastic; about three times the yield strength). Default: it does not yield.
+    #[range(HARDNESS)]
+    pub hardness: Option<At<f64>>,
 }
 
 /// Conductivity or resistivity.
 const CONDUCTIVITY: Range =
     Range::between(1e-100, 1e100, "must be positive and finite, between 1e-100 and 1e100");
+/// A hardness.
+const HARDNESS: Range = Range::POSITIVE
+    .words("must be a positive finite pressure")
+    .help("about three times the yield strength; leave it out of a surface that does not yield");
 /// A wear coefficient.
 pub(super) const COEFFICIENT: Range = Range::NOT_NEGATIVE.words("must be zero or positive and finite");
 

@@ -10,6 +10,7 @@ use super::definition::{Case, GridSize, Origin};
 use super::evolution::evolution;
 use super::file::{CaseFile, CellsFile, OutputFile, SizeFile};
 use super::friction::{friction, of_stages};
+use super::hardness::hardness;
 use super::interface::sliding_coatings;
 use super::judge::Judge;
 use super::kinematics::{Concerned, kinematics};
@@ -99,6 +100,7 @@ pub(super) fn case(
     }
     let kinematics = kinematics(&mut judge, &Concerned { file: &file, loading });
     rolling(&mut judge, &file, loading, (kinematics, profile.as_ref(), laws.as_deref()));
+    let hardness = hardness(&mut judge, &file, loading, kinematics);
     let wears = (file.wear.as_ref(), file.stress.as_ref(), kinematics);
     let surfaces = (frictionless, periodic);
     let wear = wear(&mut judge, wears, (bodies.as_ref(), files), stages.as_deref(), surfaces);
@@ -134,6 +136,7 @@ pub(super) fn case(
             datum,
             beyond,
             periodic,
+            hardness,
             residual_stress,
             fatigue,
             conduction,

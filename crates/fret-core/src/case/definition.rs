@@ -38,6 +38,9 @@ pub struct Case<M = CellMap, H = Heights> {
     pub periodic: bool,
     /// The two bodies.
     pub bodies: ContactPair,
+    /// The pressure at which the softer surface yields \[pressure\]; `None`: neither does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardness: Option<f64>,
     /// Residual stress of the lower and of the upper body.
     #[serde(default, skip_serializing_if = "are_none")]
     pub residual_stress: [ResidualStress; 2],

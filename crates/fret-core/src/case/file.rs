@@ -167,7 +167,7 @@ pub(super) struct SolverFile {
 #[schemars(deny_unknown_fields)]
 pub(super) struct OutputFile {
     /// Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`" (of bodies that move against each other also of each), "debris",
-    /// "`friction_work`" (energy that friction dissipates in the increment by area), "friction". Default: pressure, shear, slip, zone.
+    /// "`plastic_depth`", "`friction_work`" (energy that friction dissipates in the increment by area), "friction". Default: pressure, shear, slip, zone.
     pub fields: Option<Vec<At<String>>>,
     /// Keep fields of every n-th increment, and of the last of each stage. Default: only of the last of each stage.
     #[range(Range::COUNT.help("every = 1 keeps all increments"))]

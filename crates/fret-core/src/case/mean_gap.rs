@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::arrays::Cells;
 use super::file::CaseFile;
+use super::hardness::of_softer;
 use super::judge::{Judge, WithoutMeanGap};
 use crate::kernel::uniform_response;
 use crate::model::{ContactPair, Profile, SurfaceGrid};
@@ -33,6 +34,9 @@ pub(super) fn mean_plane(
     }
     if file.wear.is_some() {
         return Err(("of surfaces that wear: it changes with them", other));
+    }
+    if of_softer(file).is_some() {
+        return Err(("of surfaces that yield: it changes with them", other));
     }
     // What was refused before is told there.
     let spaced = over.and_then(|over| {

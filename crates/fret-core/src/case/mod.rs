@@ -17,6 +17,7 @@ mod fatigue;
 mod file;
 mod formula;
 mod friction;
+mod hardness;
 mod interface;
 mod judge;
 mod kinematics;

@@ -3,8 +3,18 @@
 use serde::{Deserialize, Serialize};
 
 /// Fields that can be kept, by the names of the case file.
-pub const FIELD_NAMES: [&str; 9] =
-    ["pressure", "shear", "slip", "gap", "zone", "worn_depth", "debris", "friction_work", "friction"];
+pub const FIELD_NAMES: [&str; 10] = [
+    "pressure",
+    "shear",
+    "slip",
+    "gap",
+    "zone",
+    "worn_depth",
+    "debris",
+    "plastic_depth",
+    "friction_work",
+    "friction",
+];
 
 /// What of the solution is kept.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]

@@ -210,7 +210,7 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
     ),
     real(
         "external_work",
-        "work of forces, moments and bulk stresses, and of surfaces that move, on the contact since the start; its change is that of elastic_energy, dissipated_energy, wear_work and unresolved_energy together",
+        "work of forces, moments and bulk stresses, and of surfaces that move, on the contact since the start; its change is that of elastic_energy, dissipated_energy, wear_work, plastic_work and unresolved_energy together",
         WORK,
         |step| step.external_work,
     ),
@@ -251,6 +251,17 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
     ),
     real("max_debris", "maximum thickness of the debris", LENGTH, |step| step.debris.max_thickness),
     real_or_none("mean_gap", "mean gap between surfaces that repeat", LENGTH, |step| step.mean_gap),
+    real("yielded_area", "area of the cells whose pressure is at the hardness", AREA, |step| {
+        step.plastic.area
+    }),
+    real("plastic_volume", "plastic depth summed over the surface", VOLUME, |step| step.plastic.volume),
+    real("max_plastic_depth", "maximum plastic depth", LENGTH, |step| step.plastic.max_depth),
+    real(
+        "plastic_work",
+        "work that yielding has taken since the start: hardness times plastic volume",
+        WORK,
+        |step| step.plastic.work,
+    ),
 ];
 
 pub(super) fn regime_word(regime: Regime) -> &'static str {

@@ -111,6 +111,13 @@ pub static FIELDS: &[Field] = &[
         values: |kept| kept.debris.as_ref().map(Reals),
     },
     Field {
+        name: "plastic_depth",
+        asked_as: "plastic_depth",
+        meaning: "depth by which both surfaces together have yielded",
+        unit: "length",
+        values: |kept| kept.plastic_depth.as_ref().map(Reals),
+    },
+    Field {
         name: "friction_work",
         asked_as: "friction_work",
         meaning: "energy that friction dissipates in the increment by area: friction bound times slip distance",

@@ -17,7 +17,9 @@ pub use cycle_columns::CYCLE_COLUMNS;
 pub use field_names::{FIELDS, Field, FieldValues, ZONE_WORDS};
 pub use footprint::Footprint;
 pub(crate) use footprint::faces_between;
-pub use records::{DebrisRecord, History, KeptFields, StepRecord, WornByLayer, WornThrough, WornTo};
+pub use records::{
+    DebrisRecord, History, KeptFields, PlasticRecord, StepRecord, WornByLayer, WornThrough, WornTo,
+};
 pub use start::Start;
 pub(crate) use start::{setting, way_of_solving};
 pub use warning::{Concern, RING_CELLS, RING_FRACTION, RING_SHEAR, STIFFEST, Warning};

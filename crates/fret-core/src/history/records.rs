@@ -21,6 +21,19 @@ pub struct DebrisRecord {
     pub max_thickness: f64,
 }
 
+/// What has yielded of the whole contact; nothing where no surface yields.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct PlasticRecord {
+    /// Area at the hardness now [length^2]: its cells, as the cells in contact are counted.
+    pub area: f64,
+    /// Plastic depth summed over the surface [length^3].
+    pub volume: f64,
+    /// Largest plastic depth [length].
+    pub max_depth: f64,
+    /// Work that yielding has taken since the start [force x length]: the hardness times the volume.
+    pub work: f64,
+}
+
 /// One increment of the history. Units are those of the case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StepRecord {
@@ -77,7 +90,7 @@ pub struct StepRecord {
     /// to the datum. What the springs of a rig store is not in it.
     pub elastic_energy: f64,
     /// Work of the forces, the moments and the bulk stresses on the contact since the start [force x length], with cycle jumps. Its change in an
-    /// increment is that of `elastic_energy`, `dissipated_energy`, `wear_work` and `unresolved_energy` together, to rounding.
+    /// increment is that of `elastic_energy`, `dissipated_energy`, `wear_work`, `plastic.work` and `unresolved_energy` together, to rounding.
     pub external_work: f64,
     /// Energy that has gone with what wore off since the start [force x length].
     pub wear_work: f64,
@@ -91,6 +104,9 @@ pub struct StepRecord {
     /// Debris between the surfaces.
     #[serde(default)]
     pub debris: DebrisRecord,
+    /// What has yielded.
+    #[serde(default)]
+    pub plastic: PlasticRecord,
     /// Mean coefficient of friction over the contact, weighted with the pressure [-].
     pub friction_coefficient: f64,
     /// Distance that the contact has rolled along x and y [length].
@@ -134,6 +150,8 @@ pub struct KeptFields {
     pub own_worn_depth: Option<[Array2<f64>; 2]>,
     /// Thickness of the debris between the surfaces [length], in the frame of the lower body.
     pub debris: Option<Array2<f64>>,
+    /// Depth by which both surfaces together have yielded [length].
+    pub plastic_depth: Option<Array2<f64>>,
     /// Coefficient of friction in force [-].
     pub friction: Option<Array2<f64>>,
     /// What another history needs besides these fields to start here; of every last increment of a stage, and where the fields

@@ -159,6 +159,9 @@ fn reduced(mut case: Case) -> Result<Case, IdentifyError> {
     if case.periodic {
         return refuse("is periodic: a rig presses one contact", "grid.periodic = false");
     }
+    if case.hardness.is_some() {
+        return refuse("has a hardness: the loop is fitted with elastic surfaces", "leave it out");
+    }
     let stages: Vec<Stage> = case.stages.iter().take_while(|stage| !stage.is_tangential()).cloned().collect();
     if stages.is_empty() {
         return refuse(

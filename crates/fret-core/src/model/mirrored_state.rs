@@ -39,6 +39,7 @@ impl Symmetry {
             worn_depth: whole.worn_depth.as_ref().map(|depth| self.part(depth)),
             upper_worn_depth: whole.upper_worn_depth.as_ref().map(|depth| self.part(depth)),
             debris: whole.debris.as_ref().map(|thickness| self.part(thickness)),
+            plastic_depth: whole.plastic_depth.as_ref().map(|depth| self.part(depth)),
             accumulated: whole.accumulated.as_ref().map(|slip| slip.with_fields(|field| self.part(field))),
             ..*whole
         }
@@ -75,6 +76,7 @@ fn made_whole(part: &ContactState, symmetry: Symmetry) -> ContactState {
         worn_depth: part.worn_depth.as_ref().map(even),
         upper_worn_depth: part.upper_worn_depth.as_ref().map(even),
         debris: part.debris.as_ref().map(even),
+        plastic_depth: part.plastic_depth.as_ref().map(even),
         accumulated: part.accumulated.as_ref().map(|slip| slip.with_fields(even)),
         ..*part
     }
@@ -104,6 +106,7 @@ mod tests {
                 worn_depth: Some(field(600.0)),
                 upper_worn_depth: Some(field(650.0)),
                 debris: Some(field(670.0)),
+                plastic_depth: Some(field(690.0)),
                 accumulated: Some(AccumulatedSlip { distance: field(700.0), ..AccumulatedSlip::none(cells) }),
                 dissipated_energy: 8.0,
                 bulk_work: -3.0,

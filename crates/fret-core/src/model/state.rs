@@ -59,6 +59,9 @@ pub struct ContactState {
     /// Thickness of the debris between the surfaces [length], in the frame of the lower body; `None` where none stays.
     #[serde(with = "stored")]
     pub debris: Option<Array2<f64>>,
+    /// Depth by which both surfaces together have yielded [length]; `None` where none has.
+    #[serde(with = "stored")]
+    pub plastic_depth: Option<Array2<f64>>,
     /// What slip has done to each cell since the start; `None` where nothing follows it.
     pub accumulated: Option<AccumulatedSlip>,
     /// Rigid normal approach [length].
@@ -86,7 +89,10 @@ pub struct ContactState {
     /// Energy that has gone with what wore off since the start [force x length]: work of the pressure over the depth worn under it, and
     /// what thinner bodies store less.
     pub wear_work: f64,
-    /// External work less what is stored, dissipated and gone with wear since the start [force x length]: what increments of finite length
+    /// Work that yielding has taken since the start [force x length]: the hardness times the plastic volume.
+    #[serde(default)]
+    pub plastic_work: f64,
+    /// External work less what is stored, dissipated, yielded and gone with wear since the start [force x length]: what increments of finite length
     /// leave unresolved; with wear that of all cycles that computed ones stand for.
     pub unresolved_energy: f64,
     /// Work that the bulk stresses have done on the contact since the start [force x length]: minus the mean shear times the change of
@@ -110,6 +116,7 @@ impl ContactState {
             worn_depth: None,
             upper_worn_depth: None,
             debris: None,
+            plastic_depth: None,
             accumulated: None,
             approach: 0.0,
             shift: [0.0; 2],
@@ -121,6 +128,7 @@ impl ContactState {
             elastic_energy: 0.0,
             external_work: 0.0,
             wear_work: 0.0,
+            plastic_work: 0.0,
             unresolved_energy: 0.0,
             bulk_work: 0.0,
             debris_outflow: 0.0,
@@ -145,6 +153,7 @@ impl ContactState {
             worn_depth: self.worn_depth.clone(),
             upper_worn_depth: self.upper_worn_depth.clone(),
             debris: self.debris.clone(),
+            plastic_depth: self.plastic_depth.as_ref().map(moved),
             accumulated: self.accumulated.clone(),
             ..*self
         }
@@ -175,6 +184,7 @@ impl ContactState {
             worn_depth: self.worn_depth.clone(),
             upper_worn_depth: self.upper_worn_depth.clone(),
             debris: self.debris.clone(),
+            plastic_depth: self.plastic_depth.clone(),
             accumulated: self.accumulated.clone(),
             ..*self
         }
@@ -206,11 +216,16 @@ impl ContactState {
         let motions = [self.approach, self.shift[0], self.shift[1], self.twist, tilt_x, tilt_y];
         let numbers = motions.into_iter().chain(self.bulk_stress.into_iter().flatten()).chain(self.roll);
         let energies = [self.dissipated_energy, self.elastic_energy, self.external_work, self.wear_work];
-        let mut numbers =
-            numbers.chain(energies).chain([self.unresolved_energy, self.bulk_work, self.debris_outflow]);
+        let mut numbers = numbers.chain(energies).chain([
+            self.unresolved_energy,
+            self.bulk_work,
+            self.debris_outflow,
+            self.plastic_work,
+        ]);
         let field = |field: &Array2<f64>| field.dim() == cells.into() && field.iter().all(|v| v.is_finite());
         let accumulated = self.accumulated.iter().flat_map(AccumulatedSlip::fields);
         let worn = self.worn_depth.iter().chain(&self.upper_worn_depth).chain(&self.debris);
+        let worn = worn.chain(&self.plastic_depth);
         [&self.pressure, qx, qy, sx, sy].into_iter().chain(worn).chain(accumulated).all(field)
             && self.zone.dim() == cells.into()
             && numbers.all(f64::is_finite)

@@ -218,7 +218,8 @@ fn extent_under(case: &Case, size: [f64; 2], normal: Control) -> Extent {
         settings,
         false,
     )
-    .with_rig(case.springs());
+    .with_rig(case.springs())
+    .with_hardness(case.hardness);
     let load = LoadStep { normal, tangential: [Control::Force(0.0); 2], ..LoadStep::FREE };
     let untouched = ContactState::untouched(cells);
     let solved = match solver.step(&untouched, &load, &mut |_, _| ControlFlow::Continue(())) {

@@ -217,6 +217,7 @@ fn is_the_same_along_a_line(state: &ContactState) -> bool {
     let accumulated = || state.accumulated.iter().flat_map(AccumulatedSlip::fields);
     let fields = || {
         let worn = state.worn_depth.iter().chain(&state.upper_worn_depth).chain(&state.debris);
+        let worn = worn.chain(&state.plastic_depth);
         [&state.pressure, shear_x, shear_y].into_iter().chain(worn).chain(accumulated())
     };
     (0..2).any(|axis| {

@@ -13,6 +13,8 @@ pub const PLANNING: usize = 48;
 const WEAR: usize = 50;
 /// Bytes a cell of debris: its thickness in two states and as it was, what is collected of it, what the cycle before made.
 const DEBRIS: usize = 72;
+/// Bytes a cell of what has yielded: its depth in two states, the gap without it and with it.
+const YIELDED: usize = 32;
 /// Bytes a cell of what friction dissipates in each: of an increment, and of a part of it.
 const FRICTION_WORK: usize = 16;
 /// Bytes a cell of influence coefficients that are found while those before are in use.
@@ -75,6 +77,7 @@ pub fn of_run(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Sym
     });
     let has_debris = case.wear.as_ref().is_some_and(|wear| wear.debris.is_some());
     let worn = worn + if has_debris { DEBRIS } else { 0 };
+    let worn = worn + if case.hardness.is_some() { YIELDED } else { 0 };
     let tells_work = case.output.fields.iter().any(|name| name == "friction_work");
     let worn = worn + if tells_work { FRICTION_WORK } else { 0 };
     let evolving = if case.friction_evolution.is_some() { EVOLVING } else { 0 };

@@ -80,7 +80,8 @@ fn reach_on(case: &Case, size: [f64; 2], normal: Control, direction: usize) -> R
     let friction = strongest(case);
     let gap = case.profile.gap(&grid);
     let mut solver = ContactSolver::new(grid, gap, &friction, Coupling::Coupled, response, settings, false)
-        .with_rig(case.springs());
+        .with_rig(case.springs())
+        .with_hardness(case.hardness);
     let mut tangential = [Control::Motion(0.0); 2];
     tangential[direction] = Control::Motion(size[direction]);
     let load = LoadStep { normal, tangential, ..LoadStep::FREE };

@@ -22,7 +22,7 @@ use crate::plan::Plan;
 use crate::solver::{Resultants, SolverMemory};
 
 /// Version of the bytes; another layout of what is stored gets another one.
-const FORMAT: u32 = 14;
+const FORMAT: u32 = 15;
 
 /// How far a run has come in its stages.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -208,6 +208,9 @@ impl Checkpoint {
             state.debris.get_or_insert_with(|| Array2::zeros(cells));
         }
         let debris = rule.map(|rule| CollectedDebris::nothing(rule, plan.area_of_cell(), (cells, moves)));
+        if plan.case.hardness.is_some() {
+            state.plastic_depth.get_or_insert_with(|| Array2::zeros(cells));
+        }
         let evolves = plan.case.friction_evolution.is_some();
         if evolves {
             state.accumulated.get_or_insert_with(|| AccumulatedSlip::none(cells));
@@ -281,6 +284,8 @@ impl Checkpoint {
         let wears_above = wears && plan.case.kinematics.is_finite();
         let keeps_debris = plan.case.wear.as_ref().is_some_and(|rule| rule.debris.is_some());
         let starts_with_debris = start.is_some_and(|state| state.debris.is_some());
+        let yields = plan.case.hardness.is_some();
+        let starts_yielded = start.is_some_and(|state| state.plastic_depth.is_some());
         let starts_rubbed = start.is_some_and(|state| state.accumulated.is_some());
         self.is_within(&plan.case)
             && self.state.is_sound(cells)
@@ -292,6 +297,7 @@ impl Checkpoint {
             && self.state.debris.is_some() == (keeps_debris || starts_with_debris)
             && self.debris.is_some() == keeps_debris
             && self.debris.as_ref().is_none_or(|debris| debris.fits(cells, wears_above))
+            && self.state.plastic_depth.is_some() == (yields || starts_yielded)
             && self.state.accumulated.is_some() == (evolves || starts_rubbed)
             && self.slip.is_some() == evolves
             && self.slip.as_ref().is_none_or(|slip| slip.fits(cells))

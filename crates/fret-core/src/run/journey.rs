@@ -10,6 +10,7 @@ use super::fretting_loop::{CycleEnd, FrettingLoop, slid};
 use super::moving::{Stepper, upper_wear_over_grid};
 use super::observer::{Iteration, Observer};
 use super::pair_compliance::PairCompliance;
+use super::plastic::plastic;
 use super::plausibility::Gauge;
 use super::recording::{kept, record, tell_rates, whole};
 use super::records::Records;
@@ -133,6 +134,7 @@ impl<'a> Journey<'a> {
         record.unresolved_energy = self.state.unresolved_energy;
         [record.worn_volume, record.max_worn_depth] = worn(&self.state, self.plan);
         record.debris = debris(&self.state, self.plan);
+        record.plastic = plastic(&self.state, self.plan);
         let steady = ended.as_ref().is_some_and(|cycle| cycle.steady);
         let enough = stage.cycles().is_some_and(|course| self.place.cycles >= course.most);
         let last = k == all || steady || enough || self.place.worn_out;

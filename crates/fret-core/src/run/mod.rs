@@ -11,6 +11,7 @@ mod loop_reading;
 mod moving;
 mod observer;
 mod pair_compliance;
+mod plastic;
 pub mod plausibility;
 mod recording;
 mod records;

@@ -3,7 +3,7 @@
 use ndarray::Array2;
 
 use crate::fields::{copied, largest};
-use crate::history::{DebrisRecord, Footprint, KeptFields, Residual, StepRecord};
+use crate::history::{DebrisRecord, Footprint, KeptFields, PlasticRecord, Residual, StepRecord};
 use crate::machine::memory::MemoryError;
 use crate::model::{CellMap, CellValues, ContactState, CoulombFriction, Rig, Symmetry, Zone};
 use crate::solver::Increment;
@@ -55,6 +55,7 @@ pub fn record(
         worn_volume: 0.0,
         max_worn_depth: 0.0,
         debris: DebrisRecord::default(),
+        plastic: PlasticRecord::default(),
         friction_coefficient: mean_coefficient(friction, &state.pressure),
         roll: state.roll,
         creepage: None,
@@ -116,6 +117,11 @@ pub fn kept(
         worn_depth: None,
         own_worn_depth: None,
         debris: None,
+        plastic_depth: state
+            .plastic_depth
+            .as_ref()
+            .and_then(|depth| one("plastic_depth", depth).transpose())
+            .transpose()?,
         friction: one("friction", &coefficients)?,
         rest: None,
     })

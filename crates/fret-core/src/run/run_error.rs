@@ -71,6 +71,24 @@ pub enum RunError {
         /// Fraction of them that friction carries, at the most.
         fraction: f64,
     },
+    /// A normal force above what the surfaces bear at their hardness.
+    #[error(
+        "increment {increment} ({stage}): normal force {}{unit} is not below the hardness times the area of the grid, {}{unit}: no equilibrium; a \
+         smaller force, or a larger period",
+        apart(*asked, *bound)[0], apart(*asked, *bound)[1]
+    )]
+    AboveHardness {
+        /// Number of the increment, from 0.
+        increment: usize,
+        /// Name of its stage.
+        stage: String,
+        /// Force asked for [force].
+        asked: f64,
+        /// What the whole grid carries at the hardness [force].
+        bound: f64,
+        /// A space and the unit of both; empty where the case declares no units.
+        unit: String,
+    },
     /// No tilt gives the prescribed moment of the pressure.
     #[error(
         "increment {increment} ({stage}): no tilt was found for the prescribed tilt_moment {}{unit}, {}{unit} was reached: the normal force may not be \
@@ -166,6 +184,7 @@ impl RunError {
             | Self::ContactAtEdge { increment, .. }
             | Self::AboveSliding { increment, .. }
             | Self::AboveFullSlip { increment, .. }
+            | Self::AboveHardness { increment, .. }
             | Self::NoTilt { increment, .. }
             | Self::HistoryUnresolved { increment, .. }
             | Self::GapClosed { increment, .. }
@@ -246,6 +265,9 @@ pub fn run_error(error: &SolveError, increment: usize, case: &Case, stage: usize
             RunError::AboveSliding { increment, stage, asked, bound, by, unit, advice }
         }
         SolveError::AboveFullSlip { fraction } => RunError::AboveFullSlip { increment, stage, fraction },
+        SolveError::AboveHardness { asked, bound } => {
+            RunError::AboveHardness { increment, stage, asked, bound, unit: unit("force") }
+        }
         SolveError::NoTilt { asked, reached } => {
             RunError::NoTilt { increment, stage, asked, reached, unit: unit("force x length") }
         }

@@ -198,6 +198,7 @@ impl<'a> Simulation<'a> {
         .with_bulk(BulkCompliance::of(&case.bodies, case.dimension()))
         .with_rig(case.springs())
         .with_beyond(case.beyond)
+        .with_hardness(case.hardness)
         .with_symmetry(plan.symmetry);
         let solver = if plan.grid.len() < GIVES_BACK {
             solver

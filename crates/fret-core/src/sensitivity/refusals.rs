@@ -20,6 +20,7 @@ pub(super) fn check(plan: &Plan) -> Result<(), SensitivityError> {
     let by_mean_gap = repeats && case.stages.iter().any(moves);
     let refusals = [
         (case.wear.is_some(), "[wear]", without),
+        (case.hardness.is_some(), "hardness", without),
         (case.friction_evolution.is_some(), "friction.evolution", without),
         (plan.moves, "kinematics.displacement = \"finite\"", without),
         (case.stages.iter().any(Stage::rolls), "roll", without),

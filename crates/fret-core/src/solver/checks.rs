@@ -3,6 +3,7 @@
 
 use ndarray::Array2;
 
+use super::region::Region;
 use super::{Carried, ContactSolver, Outcome, SolveError};
 use crate::model::{ContactState, LoadStep};
 
@@ -36,6 +37,25 @@ impl ContactSolver<'_> {
             return Ok(());
         }
         Err(SolveError::NotConverged { reached, iterations })
+    }
+
+    /// Whether all cells of a region at the hardness carry more than the prescribed normal force.
+    pub(super) fn hardness_bears(&self, load: &LoadStep, region: Region) -> bool {
+        let Some((force, hardness)) = load.normal.force().zip(self.hardness) else { return true };
+        force < hardness * region.len() as f64 * self.grid.cell_area()
+    }
+
+    /// Whether those of the whole grid do.
+    pub(super) fn check_hardness_bears(&self, load: &LoadStep) -> Result<(), SolveError> {
+        if self.hardness_bears(load, Region::whole(self.grid.cells())) {
+            return Ok(());
+        }
+        if self.beyond.is_body() && !self.response.is_periodic() {
+            return Err(SolveError::ContactAtEdge);
+        }
+        let asked = load.normal.force().unwrap_or(0.0);
+        let bound = self.hardness.unwrap_or(0.0) * self.grid.len() as f64 * self.grid.cell_area();
+        Err(SolveError::AboveHardness { asked, bound })
     }
 
     /// Whether there is no shear across the one axis along which it acts: its displacement is left out, so that nothing else would

@@ -91,7 +91,7 @@ pub fn solve(
     }
     let solution = solution?;
     let drift = increment.drift(&before, &displacements.tangential, solution.tangential.motion);
-    Ok(Solved { tractions, displacements, drift, solution })
+    Ok(Solved { tractions, displacements, drift, solution, yielded: Vec::new() })
 }
 
 /// What sweeps of pressure and shear in turn found, the last resort; `None` where they do not converge.

@@ -10,7 +10,8 @@
 //! ```
 //!
 //! Slip takes the first sum in the limit of short increments, and the second vanishes: pressure acts where the gap is zero. Of an increment of
-//! finite length the slip is known better than by that sum, see `state_after`. What remains is the energy that it leaves unresolved.
+//! finite length the slip is known better than by that sum, see `state_after`. What remains is the energy that it leaves unresolved. Where
+//! surfaces yield by `w` there is `sum p w` besides, of which yielding takes `sum H w`: it goes on at the hardness `H`.
 //! Theory: `docs/theory/second-order.md`.
 
 use ndarray::Array2;
@@ -98,7 +99,8 @@ impl IncrementProblem<'_> {
     ) {
         let Self { grid, region, state, .. } = self;
         let mut work = by_bulk;
-        let (mut slipped, mut opened) = (0.0, 0.0);
+        let (mut slipped, mut opened, mut given_way, mut yielded) = (0.0, 0.0, 0.0, 0.0);
+        let hardness = self.normal.hardness.unwrap_or(0.0);
         let approached = after.approach - state.approach;
         let moved = [0, 1].map(|axis| after.shift[axis] - state.shift[axis]);
         let turned = after.twist - state.twist;
@@ -122,11 +124,17 @@ impl IncrementProblem<'_> {
             }
             slipped += x * drift[0] + y * drift[1];
             opened += pressure * (before.gap[cell] - solved.solution.gap[cell]);
+            if let Some(depth) = solved.yielded.get(cell) {
+                given_way += pressure * depth;
+                yielded += hardness * depth;
+            }
         }
         let area = grid.cell_area() * self.copies as f64;
         after.external_work += work * area;
         after.wear_work += before.worn[1] * area;
         after.dissipated_energy += dissipated * area;
-        after.unresolved_energy += (slipped + opened - dissipated - before.worn[0]) * area;
+        after.plastic_work += yielded * area;
+        let unresolved = slipped + opened - dissipated - before.worn[0];
+        after.unresolved_energy += (unresolved + given_way - yielded) * area;
     }
 }

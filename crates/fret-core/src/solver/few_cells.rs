@@ -165,6 +165,7 @@ impl Asked {
                 approach: self.approach,
                 give: self.give,
                 moment: [None; 2],
+                hardness: None,
             },
             tangential: TangentialLoads {
                 motion: self.motion,

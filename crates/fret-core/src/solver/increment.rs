@@ -6,6 +6,7 @@ use ndarray::Array2;
 use super::coupled;
 use super::energy::StateBefore;
 use super::increment_problem::{IncrementProblem, Solved};
+use super::laws::complementarity::CellLaw;
 use super::laws::limit::sliding_fraction;
 use super::linear::preconditioner::CellWaves;
 use super::memory::{Before, Drift, GridTractions, LastIncrement};
@@ -17,7 +18,7 @@ use super::slip_history::slip_path;
 use super::state_after::state_after;
 use super::stretch::Stretch;
 use super::tractions::{Displacements, Tractions};
-use super::{ContactSolver, Coupling, Increment, IterationCallback, Outcome, SolveError};
+use super::{ContactSolver, Coupling, Increment, IterationCallback, Outcome, SolveError, SolverSettings};
 use crate::compliance::{OperatorSet, SurfaceCompliance};
 use crate::model::{ContactState, Integration, LoadStep, Scheme};
 
@@ -33,14 +34,20 @@ impl ContactSolver<'_> {
             self.check_friction_carries(load, normal, sliding_fraction(self.settings.tolerance))?;
         }
         self.take_last_load_as(load, state);
-        let mut start = self.pressure_from_coarse_grids(state, load, callback)?;
+        self.check_hardness_bears(load)?;
+        let start = self.pressure_from_coarse_grids(state, load, callback)?;
+        let yields = start.as_ref().is_some_and(|start| start.yields);
+        let mut start = start.map(|start| start.pressure);
         let mut region = match &start {
             Some(pressure) => self.region_around(pressure, state),
             None => self.region_for(state, load),
         };
+        if !self.hardness_bears(load, region) {
+            region = Region::whole(self.grid.cells());
+        }
         let mut pace = self.pace(load).filter(|_| self.is_of_second_order());
         loop {
-            let solved = self.solve_in(region, (start.as_ref(), pace), (state, load), callback);
+            let solved = self.solve_in(region, (start.as_ref(), pace, yields), (state, load), callback);
             if let (Some(_), Err(SolveError::NotConverged { .. })) = (pace, &solved) {
                 self.work.end_point_increments += 1;
                 pace = None;
@@ -56,10 +63,12 @@ impl ContactSolver<'_> {
             let (solved, after, outcome) = solved?;
             self.set_tilt(after.tilt);
             self.check(load, &after, &outcome, solved.solution.iterations)?;
+            self.take_plastic_depth(&after);
             let (gap, contact_area) = self.gap_and_area((region, load), &solved, &after)?;
             if self.overlaps_outside(region, &gap) {
                 region = whole;
                 start = start.map(|_| after.pressure);
+                self.take_plastic_depth(state);
                 continue;
             }
             let fraction = outcome.stick_cells as f64 / outcome.contact_cells.max(1) as f64;
@@ -85,11 +94,11 @@ impl ContactSolver<'_> {
     }
 
     /// One increment with all contact inside `region`, from the pressure `start` when there is one; `pace`: that of the increment, where it goes
-    /// on from the last one.
+    /// on from the last one; `yields`: whether the surfaces certainly yield.
     fn solve_in(
         &mut self,
         region: Region,
-        (start, pace): (Option<&Array2<f64>>, Option<Pace>),
+        (start, pace, yields): (Option<&Array2<f64>>, Option<Pace>, bool),
         (state, load): (&ContactState, &LoadStep),
         callback: IterationCallback<'_>,
     ) -> Result<(Solved, ContactState, Outcome), SolveError> {
@@ -135,13 +144,16 @@ impl ContactSolver<'_> {
                     |before: &Before, drift: &Drift| increment.drift_to_here(before, drift, &mut operators);
                 increment.path = slip_path(&self.memory, state, (pace, region), beyond).unwrap_or_default();
             }
-            self.solve_with(&mut operators, (&increment, &before), tractions, callback)
+            self.solve_to_hardness(&mut operators, (&mut increment, &before, yields), tractions, callback)
         };
         self.work += operators.take_work(region.len() as f64 / self.cells_of_whole());
-        let self_influence = operators.compliance.self_influence().tangential;
+        let influence = operators.compliance.self_influence();
+        let (self_influence, law) =
+            (influence.tangential, CellLaw { self_influence: influence.normal, hardness: self.hardness });
         self.operators = Some(operators);
         self.memory.region = Some(region);
         let mut solved = solved?;
+        solved.give_way(law, self.settings.tolerance);
         let rule = (self_influence, self.settings.integration);
         let mut work = by_cell();
         let (after, outcome) = state_after(&increment, &solved, &before, rule, work.as_mut());
@@ -155,7 +167,7 @@ impl ContactSolver<'_> {
     }
 
     /// Solves the equations by the method that the coupling asks for.
-    fn solve_with(
+    pub(super) fn solve_with(
         &self,
         operators: &mut RegionOperators,
         (increment, before): (&IncrementProblem<'_>, &StateBefore),
@@ -165,7 +177,10 @@ impl ContactSolver<'_> {
         let keeps_pressure = self.whose_pressure_is_kept(increment.region, increment.load).is_some();
         let last = self.displacements_before(increment, before);
         let response = || self.response.get();
-        let (settings, operators_of) = (&self.settings, self.operator_set());
+        // Of the methods for both together this is the one that knows a bound of the pressure from above.
+        let alternates = increment.normal.hardness.is_some() && self.coupling == Coupling::Coupled;
+        let scheme = if alternates { Scheme::Staggered } else { self.settings.scheme };
+        let (settings, operators_of) = (&SolverSettings { scheme, ..self.settings }, self.operator_set());
         let method = Method { settings, response: &response, waves: self.waves(), operators: operators_of };
         match self.coupling {
             Coupling::Coupled => coupled::solve(increment, tractions, last, operators, &method, callback),
@@ -286,7 +301,7 @@ impl ContactSolver<'_> {
             tangential: match self.coupling {
                 Coupling::Frictionless => false,
                 Coupling::Uncoupled => true,
-                Coupling::Coupled => self.settings.scheme == Scheme::Staggered,
+                Coupling::Coupled => self.settings.scheme == Scheme::Staggered || self.hardness.is_some(),
             },
             full: self.coupling == Coupling::Coupled,
             normal_from_all: false,

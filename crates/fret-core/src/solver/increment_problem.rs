@@ -81,6 +81,8 @@ pub struct Solved {
     pub drift: TangentialField,
     /// Gap, slip, motions and residuals.
     pub solution: Solution,
+    /// By how much the surfaces have yielded in the increment [length]; empty where they have not.
+    pub yielded: Vec<f64>,
 }
 
 impl<'a> IncrementProblem<'a> {
@@ -137,6 +139,7 @@ impl<'a> IncrementProblem<'a> {
                 gap: self.undeformed.iter().map(|gap| gap - approach).collect(),
                 ..Solution::without_slip(len, self.tangential.motion_apart())
             },
+            yielded: Vec::new(),
         })
     }
 

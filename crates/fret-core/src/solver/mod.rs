@@ -46,6 +46,7 @@ mod state_after;
 mod stretch;
 mod tilt;
 mod tractions;
+mod yielded;
 
 use std::borrow::Cow;
 
@@ -60,6 +61,7 @@ use crate::model::{
 pub(crate) use contact_set::ContactSet;
 pub(crate) use contact_vector::ContactVector;
 pub(crate) use last_cycle::NUMBERS as NUMBERS_OF_CYCLE;
+pub(crate) use laws::complementarity::yields_from;
 pub(crate) use laws::friction::{
     FrictionLaw, bounds_on_grid as friction_bounds, dissipation, slip_until_open,
 };
@@ -117,6 +119,9 @@ pub struct ContactSolver<'a> {
     /// Slope of the upper body that is in the gap, and the gap without it.
     tilt: [f64; 2],
     level: Option<Array2<f64>>,
+    /// The pressure at which the softer surface yields [pressure], and the gap without tilt before anything has yielded.
+    hardness: Option<f64>,
+    unyielded: Option<Array2<f64>>,
     /// What moving surfaces add to the displacement before the next increment [length], and the cells that the contact may move by in it.
     carried: Option<[Array2<f64>; 2]>,
     /// What friction has dissipated in the cells in the increment at work, where it is asked for.
@@ -162,6 +167,8 @@ impl<'a> ContactSolver<'a> {
             beyond: Beyond::Body,
             tilt: [0.0; 2],
             level: None,
+            hardness: None,
+            unyielded: None,
             carried: None,
             friction_work: None,
             travel: 0,
@@ -253,10 +260,11 @@ impl<'a> ContactSolver<'a> {
         self.memory.before = None;
     }
 
-    /// Goes on with another undeformed gap [length], shape of the grid: the displacements known so far hold no longer. Tractions, loads
-    /// and the region of the last increment still do.
+    /// Goes on with another undeformed gap [length], shape of the grid, without what has yielded, which is in the states: the displacements known
+    /// so far hold no longer. Tractions, loads and the region of the last increment still do.
     pub fn set_gap(&mut self, undeformed: Array2<f64>) {
         self.undeformed = undeformed;
+        self.unyielded = None;
         self.coarse = None;
         self.forget_displacements();
         let tilt = std::mem::take(&mut self.tilt);
@@ -273,6 +281,7 @@ impl<'a> ContactSolver<'a> {
     /// tractions, still hold.
     pub fn move_gap(&mut self, undeformed: Array2<f64>) {
         self.undeformed = undeformed;
+        self.unyielded = None;
         self.coarse = None;
         let tilt = std::mem::take(&mut self.tilt);
         self.level = None;

@@ -3,7 +3,7 @@
 use crate::fields::sum;
 use crate::model::{ContactState, Control, LoadStep, Rig};
 
-/// What is prescribed along the normal.
+/// What is prescribed along the normal, and what bounds the pressure under it.
 #[derive(Debug, Clone, Copy)]
 pub struct NormalLoad {
     /// Sum of the pressures over the cells, when the force is prescribed [pressure].
@@ -15,6 +15,8 @@ pub struct NormalLoad {
     pub give: f64,
     /// Sums of pressure times place along x and y over the length of the positions, where a moment is prescribed [pressure].
     pub moment: [Option<f64>; 2],
+    /// The pressure at which the softer surface yields [pressure]; `None`: both are elastic.
+    pub hardness: Option<f64>,
 }
 
 impl NormalLoad {
@@ -26,7 +28,12 @@ impl NormalLoad {
             Control::FarEnd(approach) => (None, approach, rig.normal * area),
         };
         let moment = load.tilt.map(|tilt| tilt.force().map(|moment| moment / (length * area)));
-        Self { total, approach, give, moment }
+        Self { total, approach, give, moment, hardness: None }
+    }
+
+    /// The same on surfaces that yield at a hardness, if they do.
+    pub fn with_hardness(self, hardness: Option<f64>) -> Self {
+        Self { hardness, ..self }
     }
 
     /// The same on cells of which one is as many as `1 / share` of these.

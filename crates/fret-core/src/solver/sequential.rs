@@ -2,7 +2,7 @@
 
 use super::contact_problem::{Pressure, Solution};
 use super::increment_problem::{IncrementProblem, Solved};
-use super::laws::complementarity::{normal_residual, tilted_residual};
+use super::laws::complementarity::{CellLaw, normal_residual, tilted_residual};
 use super::laws::limit::sliding_fraction;
 use super::laws::projection::project_pressure;
 use super::newton;
@@ -80,7 +80,7 @@ pub fn solve(
     }
     let NormalSolution { residual: normal, gap, iterations } = pressure;
     let solution = Solution { normal, gap, iterations: iterations + solution.iterations, ..solution };
-    Ok(Solved { tractions, displacements, drift, solution })
+    Ok(Solved { tractions, displacements, drift, solution, yielded: Vec::new() })
 }
 
 /// Shear predicted with a pressure keeps its ratio to the pressure, so that what slips stays on its circle; in cells that enter it has the mean ratio.
@@ -104,13 +104,14 @@ fn pressure_before(
     operators: &RegionOperators,
 ) -> NormalSolution {
     let IncrementProblem { undeformed, normal, .. } = increment;
-    let own = operators.compliance.self_influence().normal;
+    let self_influence = operators.compliance.self_influence().normal;
+    let law = CellLaw { self_influence, hardness: normal.hardness };
     let mut gap = Vec::new();
     let approach = normal.approach_under(&tractions.pressure);
-    let (pressure, displacement) = (&tractions.pressure, &displacements.normal);
+    let (pressure, heights) = (&tractions.pressure, (&displacements.normal[..], &undeformed[..]));
     let residual = match increment.tilt_motions() {
-        None => normal_residual(pressure, displacement, undeformed, own, approach, &mut gap),
-        Some(tilt) => tilted_residual(pressure, (displacement, undeformed), own, (approach, &tilt), &mut gap),
+        None => normal_residual(pressure, heights, law, approach, &mut gap),
+        Some(tilt) => tilted_residual(pressure, heights, law, (approach, &tilt), &mut gap),
     };
     NormalSolution { residual, gap, iterations: 0 }
 }

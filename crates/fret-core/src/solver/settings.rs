@@ -94,6 +94,13 @@ pub enum SolveError {
         /// The fraction of them that it carries at the most [-].
         fraction: f64,
     },
+    /// A normal force that all cells at the hardness do not carry, or just carry.
+    AboveHardness {
+        /// Force asked for [force].
+        asked: f64,
+        /// What the whole grid carries at the hardness [force].
+        bound: f64,
+    },
     /// No tilt gives the prescribed moment of the pressure.
     NoTilt {
         /// Moment asked for [force x length].
@@ -122,6 +129,10 @@ impl SolveError {
             Self::AboveSliding { asked, bound, by } => {
                 let copies = copies as f64;
                 Self::AboveSliding { asked: asked * copies, bound: bound * copies, by }
+            }
+            Self::AboveHardness { asked, bound } => {
+                let copies = copies as f64;
+                Self::AboveHardness { asked: asked * copies, bound: bound * copies }
             }
             Self::NoTilt { asked, reached } => {
                 let copies = copies as f64;

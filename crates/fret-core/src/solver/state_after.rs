@@ -132,6 +132,7 @@ fn tractions_and_motions(problem: &IncrementProblem<'_>, solved: &Solved) -> Con
     state.worn_depth.clone_from(&before.worn_depth);
     state.upper_worn_depth.clone_from(&before.upper_worn_depth);
     state.debris.clone_from(&before.debris);
+    state.plastic_depth = problem.plastic_depth(solved);
     state.accumulated.clone_from(&before.accumulated);
     region.place(&solved.tractions.pressure, &mut state.pressure);
     region.place(&solved.tractions.shear.x, &mut state.shear[0]);
@@ -157,6 +158,7 @@ fn tractions_and_motions(problem: &IncrementProblem<'_>, solved: &Solved) -> Con
     state.bulk_work = before.bulk_work;
     state.external_work = before.external_work;
     state.wear_work = before.wear_work;
+    state.plastic_work = before.plastic_work;
     state.unresolved_energy = before.unresolved_energy;
     state.debris_outflow = before.debris_outflow;
     state

@@ -31,6 +31,7 @@ impl ContactSolver<'_> {
         load: &LoadStep,
         callback: IterationCallback<'_>,
     ) -> Result<Increment, SolveError> {
+        self.take_plastic_depth(state);
         self.set_tilt([0, 1].map(|axis| load.tilt[axis].motion().unwrap_or(state.tilt[axis])));
         let moment = load.tilt.map(|tilt| tilt.force().unwrap_or(0.0));
         if moment == [0.0; 2] {

@@ -63,7 +63,8 @@ impl NormalForm {
     pub fn of<M, H>(plan: &Plan<Case<M, H>>) -> Option<Self> {
         let case = &plan.case;
         let was_worn = plan.start.as_ref().is_some_and(|start| start.solved.state.worn_depth.is_some());
-        let moves = case.kinematics.is_finite();
+        let has_yielded = plan.start.as_ref().is_some_and(|start| start.solved.state.plastic_depth.is_some());
+        let moves = case.kinematics.is_finite() || case.hardness.is_some() || has_yielded;
         let changes = case.wear.is_some() || was_worn || moves || case.tilts(0) || case.tilts(1);
         if changes || case.periodic || !case.beyond.is_body() {
             return None;

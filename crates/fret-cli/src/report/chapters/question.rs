@@ -47,6 +47,11 @@ pub fn question(view: &Overview<'_>) -> Markup {
         Coupling::Coupled => "pressure and shear together: normal-tangential coupling",
     };
     rows.push(("solved".to_owned(), words(solved)));
+    if let Some(hardness) = case.hardness {
+        let hardness = view.given(hardness, "pressure");
+        let what = format!("{hardness}; the softer surface is elastic and perfectly plastic");
+        rows.push(("hardness".to_owned(), words(&what)));
+    }
     if let Some(rule) = &case.wear {
         rows.push(("wear".to_owned(), words(&wear(view, rule))));
     }

@@ -54,6 +54,9 @@ impl<'a> Indenter<'a> {
     /// # Errors
     /// When it is none of a single contact that ends, or a number is none that the curve depends on.
     pub fn new(case: &Case, numbers: &'a Numbers<'a>) -> Result<Self, IdentifyError> {
+        if case.hardness.is_some() {
+            return Err(refusal("has a hardness: the curve is fitted with elastic surfaces", "leave it out"));
+        }
         if case.periodic || case.is_line() {
             let what = "has no depth of its own: an indenter presses one contact that ends";
             return Err(refusal(what, "grid.cells = [nx, ny], without grid.periodic"));

@@ -1,4 +1,5 @@
-//! Complementarity of gap and pressure: `g >= 0`, `p >= 0`, `g p = 0` (Signorini). Its residual, for every way of solving.
+//! Complementarity of gap and pressure: `g >= 0`, `p >= 0`, `g p = 0` (Signorini). Of surfaces that yield at a hardness `H`: `0 <= p <= H`,
+//! with `g >= 0` where `p = 0`, `g <= 0` where `p = H`, and `g = 0` between. Its residual, for every way of solving.
 
 use super::tilt_motions::TiltMotions;
 use crate::fields::{CellRule, CellSize, Reals, each_cell, largest_of, lower, reset};
@@ -11,17 +12,34 @@ pub struct NormalResidual {
     /// By how much the body has tilted since the undeformed gap was taken, where a moment of the pressure is prescribed: slope times the
     /// length of the positions, along x and y [length].
     pub turned: [f64; 2],
-    /// Largest `|min(g, K p)|` over the cells, over [`length_scale`]; K is a cell's self-influence.
+    /// Largest `|max(K (p - H), min(g, K p))|` over the cells, over [`length_scale`]; K is a cell's self-influence, and H is infinite where
+    /// surfaces do not yield.
     pub residual: f64,
 }
 
+/// What a cell knows of its pressure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CellLaw {
+    /// Displacement of a cell by its own pressure [length/pressure].
+    pub self_influence: f64,
+    /// The pressure at which the surfaces yield [pressure]; `None`: they do not.
+    pub hardness: Option<f64>,
+}
+
+/// Nearer to the hardness than this fraction of it a pressure is at the hardness.
+const AT_HARDNESS: f64 = 1e-9;
+
+/// Pressures from here on are at the hardness [pressure].
+pub fn yields_from(hardness: f64) -> f64 {
+    hardness * (1.0 - AT_HARDNESS)
+}
+
 /// Evaluates pressures, from normal displacements and the undeformed gap; finds the gap. Without a prescribed `approach` it is the mean
-/// height of the loaded cells.
+/// height of the loaded cells, of those below the hardness where there are any.
 pub fn normal_residual(
     pressure: &[f64],
-    displacement: &[f64],
-    undeformed: &[f64],
-    self_influence: f64,
+    (displacement, undeformed): (&[f64], &[f64]),
+    law: CellLaw,
     approach: Option<f64>,
     gap: &mut Vec<f64>,
 ) -> NormalResidual {
@@ -29,6 +47,7 @@ pub fn normal_residual(
     reset(gap, pressure.len());
     let read = [pressure, displacement, undeformed];
     let [load, cells, heights, work, undeformed_work] = each_cell(&Loads, read, [gap]);
+    let approach = approach.or_else(|| height_below(law.hardness?, pressure, gap));
     if load <= 0.0 {
         let lowest = gap.iter().copied().fold(f64::INFINITY, f64::min);
         let approach = approach.unwrap_or(lowest);
@@ -36,9 +55,9 @@ pub fn normal_residual(
         return NormalResidual { approach, turned, residual: if lowest >= approach { 0.0 } else { 1.0 } };
     }
     let approach = approach.unwrap_or(heights / cells);
-    let scale = length_scale((work - undeformed_work) / load, [self_influence, load / cells], approach);
+    let scale = length_scale((work - undeformed_work) / load, [law.self_influence, load / cells], approach);
     lower(gap, approach);
-    let worst = violation(gap, pressure, self_influence);
+    let worst = violation(gap, pressure, law);
     NormalResidual { approach, turned, residual: if scale > 0.0 { worst / scale } else { f64::INFINITY } }
 }
 
@@ -57,9 +76,38 @@ pub fn length_scale(mean_displacement: f64, [self_influence, mean_pressure]: [f6
     mean_displacement.abs().max(least)
 }
 
-/// Largest `|min(g, K p)|` over the cells [length], K being the self-influence.
-pub fn violation(gap: &[f64], pressure: &[f64], self_influence: f64) -> f64 {
-    largest_of(&Violation { self_influence }, [gap, pressure])
+/// Largest `|max(K (p - H), min(g, K p))|` over the cells [length], K being the self-influence and H the hardness.
+pub fn violation(gap: &[f64], pressure: &[f64], law: CellLaw) -> f64 {
+    let CellLaw { self_influence, hardness } = law;
+    match hardness {
+        None => largest_of(&Violation { self_influence }, [gap, pressure]),
+        Some(hardness) => largest_of(&ViolationOfYielding { self_influence, hardness }, [gap, pressure]),
+    }
+}
+
+/// Mean height [length] of the loaded cells below the hardness; where none is, the largest of all loaded ones, which just touches. `None` where
+/// nothing is loaded.
+pub fn height_below(hardness: f64, pressure: &[f64], heights: &[f64]) -> Option<f64> {
+    let [sum, count] = each_cell(&Below { limit: yields_from(hardness) }, [pressure, heights], []);
+    if count > 0.0 {
+        return Some(sum / count);
+    }
+    let loaded = pressure.iter().zip(heights).filter(|(p, _)| **p > 0.0);
+    loaded.map(|(_, height)| *height).reduce(f64::max)
+}
+
+/// Sums of the heights of cells that are loaded below a limit, and of these cells.
+struct Below {
+    limit: f64,
+}
+
+impl CellRule<2, 0, 2> for Below {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [p, height]: [R; 2], _: &mut [R; 0]) -> [R; 2] {
+        let (zero, one) = (p.all(0.0), p.all(1.0));
+        let is_free = p.if_at_most(zero, zero, p.all(self.limit).if_at_most(p, zero, one));
+        [is_free * height, is_free]
+    }
 }
 
 /// Height; sums of pressure, of loaded cells and of their heights, of pressure times height, and of pressure times undeformed gap.
@@ -87,17 +135,31 @@ impl CellSize<2> for Violation {
     }
 }
 
+/// `|max(K (p - H), min(g, K p))|`.
+struct ViolationOfYielding {
+    self_influence: f64,
+    hardness: f64,
+}
+
+impl CellSize<2> for ViolationOfYielding {
+    #[inline(always)]
+    fn of<R: Reals>(&self, [gap, p]: [R; 2]) -> R {
+        let off = gap.min(p * self.self_influence).max((p - self.hardness) * self.self_influence);
+        off.max(off * -1.0)
+    }
+}
+
 /// The same where a moment of the pressure is prescribed: approach and tilt are those of the plane nearest to the heights of the loaded cells.
 pub fn tilted_residual(
     pressure: &[f64],
     (displacement, undeformed): (&[f64], &[f64]),
-    self_influence: f64,
+    law: CellLaw,
     (approach, tilt): (Option<f64>, &TiltMotions),
     gap: &mut Vec<f64>,
 ) -> NormalResidual {
     let loaded = |cell: usize| f64::from(u8::from(pressure[cell] > 0.0));
     let (turned, level) = tilt.turn(loaded, (displacement, undeformed, approach.unwrap_or(0.0)));
-    let found = normal_residual(pressure, displacement, &level, self_influence, approach, gap);
+    let found = normal_residual(pressure, (displacement, &level), law, approach, gap);
     NormalResidual { turned, ..found }
 }
 
@@ -105,13 +167,17 @@ pub fn tilted_residual(
 mod tests {
     use super::*;
 
+    fn elastic(self_influence: f64) -> CellLaw {
+        CellLaw { self_influence, hardness: None }
+    }
+
     /// Two loaded cells at one height, an open one above: complementary. A cell in tension, an overlap, a loaded cell that is open:
     /// each by its own measure.
     #[test]
     fn every_kind_of_violation_is_seen() {
         let undeformed = [0.0, 0.0, 5.0];
         let residual = |pressure: [f64; 3], displacement: [f64; 3], approach| {
-            normal_residual(&pressure, &displacement, &undeformed, 0.5, approach, &mut Vec::new())
+            normal_residual(&pressure, (&displacement, &undeformed), elastic(0.5), approach, &mut Vec::new())
         };
         // Mean displacement under the load: 2.
         assert_eq!(
@@ -127,7 +193,8 @@ mod tests {
     #[test]
     fn flat_surfaces_that_are_not_displaced_have_a_residual() {
         let residual = |undeformed: [f64; 2]| {
-            normal_residual(&[2.0, 2.0], &[0.0; 2], &undeformed, 0.5, None, &mut Vec::new()).residual
+            normal_residual(&[2.0, 2.0], (&[0.0; 2], &undeformed), elastic(0.5), None, &mut Vec::new())
+                .residual
         };
         assert_eq!(residual([0.0; 2]), 0.0);
         // Half of the difference is the gap; the scale is 1e-5 times 0.5 times 2.
@@ -138,7 +205,7 @@ mod tests {
     fn bodies_apart_are_complementary_and_bodies_through_each_other_are_not() {
         let mut gap = Vec::new();
         let mut residual =
-            |approach| normal_residual(&[0.0; 2], &[0.0; 2], &[1.0, 2.0], 1.0, approach, &mut gap);
+            |approach| normal_residual(&[0.0; 2], (&[0.0; 2], &[1.0, 2.0]), elastic(1.0), approach, &mut gap);
         assert_eq!(residual(Some(1.5)).residual, 1.0);
         // Without a prescribed approach bodies apart just touch.
         assert_eq!(residual(None), NormalResidual { approach: 1.0, turned: [0.0; 2], residual: 0.0 });
@@ -152,8 +219,14 @@ mod tests {
     fn what_hardly_presses_is_measured_by_the_digits_of_heights() {
         let residual = |gap: f64, displacement: f64| {
             let read = ([1.0, 1.0], [displacement; 2], [1.0, 1.0 + gap]);
-            normal_residual(&read.0, &read.1, &read.2, 1e-3, Some(1.0 + displacement), &mut Vec::new())
-                .residual
+            normal_residual(
+                &read.0,
+                (&read.1, &read.2),
+                elastic(1e-3),
+                Some(1.0 + displacement),
+                &mut Vec::new(),
+            )
+            .residual
         };
         assert!(residual(f64::EPSILON, 1e-15) < 1e-8);
         assert!((residual(1e-9, 1e-6) / 1e-3 - 1.0).abs() < 1e-6);
@@ -164,9 +237,31 @@ mod tests {
     #[test]
     fn a_load_that_moves_nothing_is_measured_by_the_self_influence() {
         let residual = |gap: f64| {
-            normal_residual(&[1.0, 1.0], &[0.0; 2], &[0.0, gap], 1.0, Some(0.0), &mut Vec::new()).residual
+            normal_residual(&[1.0, 1.0], (&[0.0; 2], &[0.0, gap]), elastic(1.0), Some(0.0), &mut Vec::new())
+                .residual
         };
         assert_eq!(residual(0.0), 0.0);
         assert!(residual(1e-3) > 1.0 && residual(1e-3).is_finite(), "{}", residual(1e-3));
+    }
+
+    /// At a hardness of 4 cells at it may overlap and not be open, cells below it are closed, and no pressure is above it; the approach is
+    /// the height of those below it.
+    #[test]
+    fn what_yields_may_overlap_and_bears_no_more_than_the_hardness() {
+        let law = CellLaw { self_influence: 0.5, hardness: Some(4.0) };
+        let residual = |pressure: [f64; 3], displacement: [f64; 3], approach| {
+            normal_residual(&pressure, (&displacement, &[0.0; 3]), law, approach, &mut Vec::new())
+        };
+        let solved = residual([4.0, 1.0, 0.0], [1.0, 2.0, 5.0], None);
+        assert_eq!(solved, NormalResidual { approach: 2.0, turned: [0.0; 2], residual: 0.0 });
+        // Mean displacements under the loads: 1.2, 2.8 and 2.8.
+        assert_eq!(residual([4.0, 1.0, 0.0], [1.0, 2.0, 1.5], None).residual, 0.5 / 1.2);
+        assert_eq!(residual([4.0, 1.0, 0.0], [3.0, 2.0, 5.0], None).residual, 1.0 / 2.8);
+        assert_eq!(residual([4.0, 1.0, 0.0], [3.0, 2.0, 5.0], Some(2.5)).residual, 0.5 / 2.8);
+        // A pressure of 1 too much, and one of 1 too little over an overlap of 1.
+        assert_eq!(residual([5.0, 1.0, 0.0], [1.0, 2.0, 5.0], Some(2.0)).residual, 0.5 / (7.0 / 6.0));
+        assert_eq!(residual([3.0, 1.0, 0.0], [1.0, 2.0, 5.0], Some(2.0)).residual, 0.5 / 1.25);
+        // All at the hardness: the highest just touches.
+        assert_eq!(residual([4.0, 4.0, 0.0], [1.0, 2.0, 5.0], None).approach, 2.0);
     }
 }

@@ -228,7 +228,13 @@ mod tests {
     fn row(total: Option<f64>, moment: f64) -> TiltMotions {
         let positions = CellPositions::new(vec![-2.0, -1.0, 0.0, 1.0, 2.0], vec![0.0], false);
         // Places count in the length 2.
-        let load = NormalLoad { total, approach: 0.0, give: 0.0, moment: [Some(moment / 2.0), None] };
+        let load = NormalLoad {
+            total,
+            approach: 0.0,
+            give: 0.0,
+            moment: [Some(moment / 2.0), None],
+            hardness: None,
+        };
         TiltMotions::of(&load, &positions, 0..5).unwrap()
     }
 

@@ -7,6 +7,7 @@
 use super::super::laws::complementarity::{NormalResidual, length_scale, violation};
 use super::super::settings::SolveError;
 use super::problem::{Ending, NormalIteration};
+use super::yielding;
 use crate::fields::{CellRule, CellSize, Reals, add_scaled, dot, each_cell, largest_of, sum};
 
 /// When the contact changes, and how often it may change without gain.
@@ -56,8 +57,13 @@ struct Violations {
 /// When the caller stopped the iteration, or it has gone on for too long.
 pub fn iterate(problem: &mut NormalIteration<'_>, care: Care) -> Result<Ending, SolveError> {
     let task = problem.task;
-    for (active, p) in problem.active.iter_mut().zip(&*problem.pressure) {
-        *active = f64::from(u8::from(*p > 0.0));
+    match task.load.hardness {
+        None => {
+            for (active, p) in problem.active.iter_mut().zip(&*problem.pressure) {
+                *active = f64::from(u8::from(*p > 0.0));
+            }
+        }
+        Some(hardness) => yielding::mark_active(problem.pressure, hardness, &mut problem.active),
     }
     let mut best = f64::INFINITY;
     let mut changes = 0;
@@ -74,7 +80,7 @@ pub fn iterate(problem: &mut NormalIteration<'_>, care: Care) -> Result<Ending, 
             problem.report(here.residual)?;
             if here.residual < problem.tolerance && here.tense == 0.0 {
                 // What was asked for is more: no gap on the contact at all, however small its pressure.
-                let residual = violation(&problem.gap, problem.pressure, problem.self_influence) / here.scale;
+                let residual = violation(&problem.gap, problem.pressure, problem.law()) / here.scale;
                 let (approach, turned) = (here.approach, problem.turned);
                 return Ok(Ending::Solved(NormalResidual { approach, turned, residual }));
             }
@@ -116,7 +122,7 @@ pub fn iterate(problem: &mut NormalIteration<'_>, care: Care) -> Result<Ending, 
 
 /// Gap everywhere, residual on the contact, and what is wrong.
 fn examine(problem: &mut NormalIteration<'_>) -> Violations {
-    let own = problem.self_influence;
+    let (own, hardness) = (problem.self_influence, problem.task.load.hardness);
     problem.turn(|problem, cell| problem.active[cell]);
     let undeformed = problem.level.as_deref().unwrap_or(problem.task.undeformed);
     let read = [&*problem.displacement, undeformed, &*problem.pressure, &problem.active];
@@ -124,10 +130,16 @@ fn examine(problem: &mut NormalIteration<'_>) -> Violations {
     let approach =
         if problem.task.load.total.is_some() { heights / count } else { problem.task.load.approach };
     let NormalIteration { gap, residual, active, pressure, .. } = &mut *problem;
-    let rule = Examine { approach, own };
-    let [inner_square, outer_square, tense] = each_cell(&rule, [pressure, active], [gap, residual]);
+    let (read, write) = ([&**pressure, active], [&mut gap[..], residual]);
+    let [inner_square, outer_square, tense] = match hardness {
+        None => each_cell(&Examine { approach, own }, read, write),
+        Some(hardness) => each_cell(&yielding::Examine { approach, own, hardness }, read, write),
+    };
     let inner = largest_of(&Size, [residual]);
-    let outer = largest_of(&Violation { own }, [gap, pressure, active]);
+    let outer = match hardness {
+        None => largest_of(&Violation { own }, [gap, pressure, active]),
+        Some(hardness) => largest_of(&yielding::Violation { own, hardness }, [gap, pressure, active]),
+    };
     // Of the body: displacements here have in them what the machine gives.
     let given = problem.task.load.give * load;
     let mean = work / load - given;
@@ -159,8 +171,12 @@ fn steepest(problem: &mut NormalIteration<'_>, count: Option<f64>) -> f64 {
 
 /// Cells under tension leave, cells that overlap enter.
 fn change_contact(problem: &mut NormalIteration<'_>, any_tense: bool) {
-    let write = [&mut problem.active[..], &mut *problem.pressure];
-    let [count, kept] = each_cell(&Change, [&problem.gap], write);
+    let (read, write) = ([&problem.gap[..]], [&mut problem.active[..], &mut *problem.pressure]);
+    let hardness = problem.task.load.hardness;
+    let [count, kept] = match hardness {
+        None => each_cell(&Change, read, write),
+        Some(hardness) => each_cell(&yielding::Change { hardness }, read, write),
+    };
     if !any_tense {
         return;
     }

@@ -2,17 +2,22 @@
 
 mod active_set;
 pub mod coarse_grids;
+mod equations;
+mod first_pressure;
 pub mod grid_transfer;
 mod problem;
 mod projected_cg;
+mod yielding;
 
 use super::laws::complementarity::NormalResidual;
 use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
+use crate::compliance::SurfaceCompliance;
 use crate::fields::lower;
 
 use active_set::Care;
-pub use problem::NormalEquations;
+pub use equations::NormalEquations;
+pub use first_pressure::first_pressure;
 use problem::{Ending, NormalIteration};
 
 /// What the normal solver reached.
@@ -29,7 +34,7 @@ pub struct NormalSolution {
 /// Iterations of projected conjugate gradients that need not halve the residual before the active set is tried.
 const MAX_STALLED: usize = 20;
 
-/// Solves the normal equations from a pressure without tension and with the force prescribed. Both fields end at the solution: pressure [pressure] and its normal displacement
+/// Solves the normal equations from a pressure without tension and with the force prescribed; where surfaces yield, from any. Both fields end at the solution: pressure [pressure] and its normal displacement
 /// [length].
 ///
 /// Projected conjugate gradients come first, the active set where the response is stiff; each takes over when the other stalls, waits longer and takes
@@ -51,6 +56,17 @@ pub fn solve_normal(
         if !tilt.on_all_cells(pressure) {
             return Err(SolveError::NotConverged { reached: f64::INFINITY, iterations: 0 });
         }
+    }
+    if let (Some(total), Some(hardness)) = (task.load.total, task.load.hardness)
+        && total > hardness * pressure.len() as f64
+    {
+        return Err(SolveError::NotConverged { reached: f64::INFINITY, iterations: 0 });
+    }
+    if let Some(hardness) = task.load.hardness
+        && !yielding::make_feasible(pressure, task.load.total, hardness)
+    {
+        let own = operators.compliance.self_influence().normal;
+        pressure.copy_from_slice(&first_pressure(task, own));
     }
     let fields = [pressure, displacement];
     let mut by_active_set = operators.preconditioner.is_stiff();
@@ -75,20 +91,5 @@ pub fn solve_normal(
             care = care.more();
         }
         by_active_set = !by_active_set;
-    }
-}
-
-/// A first pressure: uniform over the eighth of the cells with the smallest gap under a force, the self-influences alone under an approach.
-pub fn first_pressure(task: &NormalEquations<'_>, own: f64) -> Vec<f64> {
-    match task.load.total {
-        Some(total) => {
-            let mut gaps: Vec<f64> = task.undeformed.to_vec();
-            let eighth = (gaps.len() / 8).max(1);
-            let (_, limit, _) = gaps.select_nth_unstable_by(eighth - 1, f64::total_cmp);
-            let limit = *limit;
-            let count = task.undeformed.iter().filter(|gap| **gap <= limit).count();
-            task.undeformed.iter().map(|gap| if *gap <= limit { total / count as f64 } else { 0.0 }).collect()
-        }
-        None => task.undeformed.iter().map(|gap| ((task.load.approach - gap) / own).max(0.0) * 0.1).collect(),
     }
 }

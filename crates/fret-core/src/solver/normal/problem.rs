@@ -1,35 +1,19 @@
-//! The frictionless problem in a region: its equations, the fields both iterations work on, and how they report.
+//! The frictionless problem in a region: the fields both iterations work on, and how they report.
 
-use super::super::laws::complementarity::{NormalResidual, length_scale};
+use super::super::laws::complementarity::{CellLaw, NormalResidual, height_below, length_scale};
 use super::super::laws::projection::project_pressure;
-use super::super::laws::rigid_motions::CellPositions;
 use super::super::laws::tilt_motions::TiltMotions;
 use super::super::operators::RegionOperators;
 use super::super::prescribed::NormalLoad;
 use super::super::settings::{IterationCallback, SolveError};
+use super::equations::NormalEquations;
+use super::first_pressure::first_pressure;
+use super::yielding;
 use crate::compliance::SurfaceCompliance;
 use crate::fields::{CellRule, Reals, each_cell, lower};
 
 /// Iterations at the most, of both methods together.
 const MOST_ITERATIONS: usize = 8000;
-
-/// What the normal equations of one increment ask for, over the cells of a region.
-#[derive(Debug)]
-pub struct NormalEquations<'a> {
-    /// Gap before deformation, with whatever else moves the surfaces at given shear [length].
-    pub undeformed: &'a [f64],
-    /// What is prescribed. What the machine gives is in the displacements while the problem is solved.
-    pub load: NormalLoad,
-    /// Where the cells are.
-    pub positions: &'a CellPositions,
-}
-
-impl NormalEquations<'_> {
-    /// The motions along the normal, where a moment is prescribed.
-    pub fn tilt(&self) -> Option<TiltMotions> {
-        TiltMotions::of(&self.load, self.positions, 0..self.undeformed.len())
-    }
-}
 
 /// How an iteration ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -155,8 +139,19 @@ impl<'a> NormalIteration<'a> {
         }
     }
 
-    /// Brings pressure to what is allowed; pressure on all cells, where what there is carries no such moment.
+    /// What a cell knows of its pressure.
+    pub fn law(&self) -> CellLaw {
+        CellLaw { self_influence: self.self_influence, hardness: self.task.load.hardness }
+    }
+
+    /// Brings pressure to what is allowed; pressure on all cells, where what there is carries no such force or moment.
     pub fn project_pressure(&mut self) {
+        if let Some(hardness) = self.task.load.hardness {
+            if !yielding::make_feasible(self.pressure, self.task.load.total, hardness) {
+                self.pressure.copy_from_slice(&first_pressure(self.task, self.self_influence));
+            }
+            return;
+        }
         let carried = project_pressure(self.pressure, self.task.load.total, self.tilt.as_ref());
         if let (Some(tilt), false) = (&self.tilt, carried) {
             tilt.on_all_cells(self.pressure);
@@ -175,9 +170,11 @@ impl<'a> NormalIteration<'a> {
         let undeformed = self.level.as_deref().unwrap_or(self.task.undeformed);
         let read = [&*self.displacement, undeformed, &*self.pressure];
         let [heights, count, work, load] = each_cell(&Measure, read, [&mut self.gap]);
-        let approach = match self.task.load.total {
-            Some(_) if count > 0.0 => heights / count,
-            _ => self.task.load.approach,
+        let NormalLoad { total, approach, hardness, .. } = self.task.load;
+        let approach = match (total, hardness) {
+            (Some(_), Some(hardness)) => height_below(hardness, self.pressure, &self.gap).unwrap_or(approach),
+            (Some(_), None) if count > 0.0 => heights / count,
+            _ => approach,
         };
         // Of the body: displacements here have in them what the machine gives.
         let given = self.task.load.give * load;
@@ -189,7 +186,11 @@ impl<'a> NormalIteration<'a> {
     /// Adds `fraction` of the change to pressures and displacements; rounding leaves no tension.
     pub fn advance(&mut self, fraction: f64) {
         let write = [&mut *self.pressure, &mut *self.displacement];
-        each_cell(&Advance { fraction }, [&self.change, &self.image], write);
+        let read = [&self.change[..], &self.image];
+        match self.task.load.hardness {
+            None => each_cell(&Advance { fraction }, read, write),
+            Some(hardness) => each_cell(&yielding::Advance { fraction, hardness }, read, write),
+        };
     }
 
     /// What was changed becomes what was changed last.

@@ -1,10 +1,11 @@
 //! Projected, preconditioned conjugate gradients (Polonsky & Keer 1999, with a preconditioner and an exact line search), one operator
 //! application an iteration: pressures stay feasible throughout; a nearly empty cell that is pulled apart leaves; the energy never
-//! rises.
+//! rises. Where surfaces yield, pressures have a second bound (`yielding`).
 
 use super::super::laws::complementarity::{NormalResidual, violation};
 use super::super::settings::SolveError;
 use super::problem::{Ending, NormalIteration};
+use super::yielding;
 use crate::fields::{CellRule, CellSize, Reals, add_scaled, dot, each_cell, largest_of};
 
 /// A loaded cell leaves when its own pressure could close less than this fraction of its gap.
@@ -15,7 +16,7 @@ const LEAVE_BELOW: f64 = 0.15;
 /// # Errors
 /// When the caller stopped the iteration, or it has gone on for too long.
 pub fn iterate(problem: &mut NormalIteration<'_>, max_stalled: usize) -> Result<Ending, SolveError> {
-    let self_influence = problem.self_influence;
+    let (self_influence, law) = (problem.self_influence, problem.law());
     let by_force = problem.task.load.total.is_some();
     let mut step = 0.8_f64;
     let mut leave_below = LEAVE_BELOW;
@@ -24,10 +25,14 @@ pub fn iterate(problem: &mut NormalIteration<'_>, max_stalled: usize) -> Result<
     let mut waited = 0;
     loop {
         let (approach, scale) = problem.measure();
-        let sets = Sets { approach, stretch: self_influence / leave_below };
+        let stretch = self_influence / leave_below;
         let NormalIteration { gap, residual, active, pressure, .. } = &mut *problem;
-        let [gaps, count] = each_cell(&sets, [pressure], [gap, residual, active]);
-        let worst = violation(gap, pressure, self_influence);
+        let (read, write) = ([&**pressure], [&mut gap[..], residual, active]);
+        let [gaps, count] = match law.hardness {
+            None => each_cell(&Sets { approach, stretch }, read, write),
+            Some(hardness) => each_cell(&yielding::Sets { approach, stretch, hardness }, read, write),
+        };
+        let worst = violation(gap, pressure, law);
         let residual = scale.map_or(if worst > 0.0 { 1.0 } else { 0.0 }, |scale| worst / scale);
         problem.report(residual)?;
         if residual < problem.tolerance {
@@ -59,7 +64,10 @@ pub fn iterate(problem: &mut NormalIteration<'_>, max_stalled: usize) -> Result<
         problem.convolve_change();
         let NormalIteration { change, image, gap, pressure, .. } = &mut *problem;
         let (curvature, slope) = (dot(change, image), dot(gap, change));
-        let steepest_fall = largest_of(&Fall, [change, pressure]);
+        let steepest = match law.hardness {
+            None => largest_of(&Fall, [change, pressure]),
+            Some(hardness) => largest_of(&yielding::Step { hardness }, [change, pressure]),
+        };
         let exact = -slope / curvature;
         if !(curvature > 0.0 && exact > 0.0) {
             step *= 0.3;
@@ -70,8 +78,8 @@ pub fn iterate(problem: &mut NormalIteration<'_>, max_stalled: usize) -> Result<
             }
             continue;
         }
-        // Beyond the change itself as far as no pressure becomes tension.
-        let fraction = if exact > 1.0 { exact.min((1.0 / steepest_fall).max(1.0)) } else { exact };
+        // Beyond the change itself as far as no pressure becomes tension, or more than the hardness.
+        let fraction = if exact > 1.0 { exact.min((1.0 / steepest).max(1.0)) } else { exact };
         problem.advance(fraction);
         step = (step * exact).clamp(0.2, 1.5);
         problem.remember();
@@ -109,6 +117,16 @@ impl Direction {
     /// prescribed force. False when no pressure would be left.
     fn clip(&self, problem: &mut NormalIteration<'_>, step: f64) -> bool {
         let Self { beta, constant } = *self;
+        let total = problem.task.load.total;
+        if let Some(hardness) = problem.task.load.hardness {
+            let NormalIteration { steepest, active, last_change, pressure, change, gap, .. } = &mut *problem;
+            let target = yielding::Target { step, constant, beta, hardness };
+            each_cell(&target, [steepest, active, last_change, pressure, gap], [change]);
+            let carried = total.is_none_or(|total| yielding::restore(change, active, total, hardness));
+            yielding::clip(change, hardness);
+            each_cell(&ChangeTo { fraction: 1.0 }, [pressure], [change]);
+            return carried;
+        }
         let NormalIteration { steepest, active, last_change, pressure, change, tilt, .. } = &mut *problem;
         let target = Target { step, constant, beta };
         let [found] = each_cell(&target, [steepest, active, last_change, pressure], [change]);
@@ -123,7 +141,7 @@ impl Direction {
             each_cell(&ChangeTo { fraction: 1.0 }, [&*problem.pressure], [&mut problem.change]);
             return true;
         }
-        let fraction = match problem.task.load.total {
+        let fraction = match total {
             Some(_) if !(found > 0.0) => return false,
             Some(total) => total / found,
             None => 1.0,

@@ -2,6 +2,7 @@
 
 use ndarray::Array2;
 
+use crate::fields::largest;
 use crate::model::{ContactState, Control, LoadStep, Rig};
 use crate::solver::increment_problem::centres;
 use crate::solver::laws::rigid_motions::CellPositions;
@@ -15,6 +16,17 @@ use crate::solver::{ContactSolver, Coupling, IterationCallback, SolveError};
 /// A normal load changes much when it changes by more than this fraction: starting on coarse grids is then cheaper than from the
 /// pressure before.
 const LARGE_CHANGE: f64 = 0.03;
+
+/// Surfaces yield whose elastic pressure on coarser grids is above the hardness by this factor.
+const SURELY_YIELDS: f64 = 1.1;
+
+/// What coarser grids tell.
+pub(in crate::solver) struct CoarseStart {
+    /// Pressure on the grid [pressure].
+    pub pressure: Array2<f64>,
+    /// Whether surfaces certainly yield under it.
+    pub yields: bool,
+}
 
 impl ContactSolver<'_> {
     /// Whether increments start from the last cycle: those of surfaces that move and do not roll.
@@ -54,7 +66,7 @@ impl ContactSolver<'_> {
         state: &ContactState,
         load: &LoadStep,
         callback: IterationCallback<'_>,
-    ) -> Result<Option<Array2<f64>>, SolveError> {
+    ) -> Result<Option<CoarseStart>, SolveError> {
         let touched = state.pressure.iter().any(|p| *p > 0.0);
         let far = match (load.normal, self.memory.last_load.map(|last| last.normal)) {
             (Control::Force(now), Some(Control::Force(then)))
@@ -85,6 +97,18 @@ impl ContactSolver<'_> {
         let grids = self.coarse.get_or_insert_with(|| {
             CoarseGrids::below(self.response.get(), &self.undeformed, (&positions, spacing), self.symmetry)
         });
-        grids.pressure_above(normal, self.table.as_ref(), &self.settings, &mut self.work, callback)
+        let (table, settings) = (self.table.as_ref(), &self.settings);
+        let elastic = grids.pressure_above(normal, table, settings, &mut self.work, callback)?;
+        let is_above = |pressure: &Array2<f64>, hardness: f64| {
+            pressure.as_slice().map_or(0.0, largest) > SURELY_YIELDS * hardness
+        };
+        match (elastic, self.hardness) {
+            (Some(pressure), Some(hardness)) if is_above(&pressure, hardness) => {
+                let normal = normal.with_hardness(self.hardness);
+                let found = grids.pressure_above(normal, table, settings, &mut self.work, callback)?;
+                Ok(Some(CoarseStart { pressure: found.unwrap_or(pressure), yields: true }))
+            }
+            (elastic, _) => Ok(elastic.map(|pressure| CoarseStart { pressure, yields: false })),
+        }
     }
 }
