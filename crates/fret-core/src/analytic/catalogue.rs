@@ -55,7 +55,7 @@ mod tests {
             "friction_coefficient" | "poisson" => vec![0.3],
             "layer" => vec![1.0, 0.3, 0.1],
             "lower" | "upper" => vec![1.0, 0.3],
-            "strain" | "tilt" | "moment" => vec![0.01],
+            "strain" | "tilt" | "moment" => vec![0.005],
             "slope" | "amplitude" | "mean_pressure" | "tangential_force" => vec![0.1],
             "sphere" | "cylinder" => vec![1.0; 3],
             _ => vec![1.0],

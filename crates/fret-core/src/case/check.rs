@@ -90,12 +90,12 @@ pub(super) fn case(
     let frictionless = laws.as_ref().is_some_and(|laws| laws.iter().all(|law| law.is_frictionless()));
     sliding_coatings(&mut judge, files, frictionless || laws.is_none(), stages.as_deref());
     let solver = file.solver.as_ref();
-    let tolerance = solver.and_then(|solver| solver.tolerance).unwrap_or(TOLERANCE);
+    let tolerance = tolerance(&mut judge, solver.and_then(|solver| solver.tolerance.as_ref()));
     if let (true, Some(laws), Some(stages)) = (places.are_whole(), &laws, &stages) {
         let strongest = friction_evolution.as_ref().zip(friction.as_ref());
         let strongest = strongest.map(|(evolution, first)| evolution.strongest(first));
         let friction = (laws.as_slice(), strongest.as_ref());
-        sliding(&mut judge, friction, &file.load, stages, tolerance);
+        sliding(&mut judge, friction, &file.load, stages, tolerance.unwrap_or(TOLERANCE));
     }
     let kinematics = kinematics(&mut judge, &Concerned { file: &file, loading });
     rolling(&mut judge, &file, loading, (kinematics, profile.as_ref(), laws.as_deref()));
@@ -124,7 +124,7 @@ pub(super) fn case(
             friction: friction?,
             kinematics,
             stages: stages?,
-            tolerance,
+            tolerance: tolerance?,
             output: output?,
             title: file.title.unwrap_or_default(),
             scheme: solver.and_then(|solver| solver.scheme).unwrap_or_default(),
@@ -169,6 +169,18 @@ fn judge_of<'a>(file: &CaseFile, attachments: Attachments<'a>, places: &'a Place
     judge.units = file.units.as_ref().and_then(|file| declared_units(&mut judge, file));
     judge.force_unit = Units::after(judge.units.as_ref(), "force", dimension);
     judge
+}
+
+fn tolerance(judge: &mut Judge, given: Option<&At<f64>>) -> Option<f64> {
+    match given {
+        None => Some(TOLERANCE),
+        Some(given) if (1e-13..=1e-2).contains(&given.value) => Some(given.value),
+        Some(given) => judge.refuse(
+            given.span(),
+            format!("solver.tolerance = {:e}: must lie between 1e-13 and 1e-2", &given.value),
+            "1e-8 serves most purposes; below 1e-12 rounding takes over",
+        ),
+    }
 }
 
 fn cells(judge: &mut Judge, given: &At<CellsFile>) -> Option<[usize; 2]> {

@@ -150,17 +150,12 @@ pub(super) enum SizeFile {
     Auto(AutoWord),
 }
 
-/// What a residual may be.
-const TOLERANCE: Range = Range::between(1e-13, 1e-2, "must lie between 1e-13 and 1e-2")
-    .help("1e-8 serves most purposes; below 1e-12 rounding takes over");
-
 /// Accuracy of the solution.
 #[derive(Table, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub(super) struct SolverFile {
     /// Largest accepted residual of every increment (complementarity, Coulomb, equilibrium; dimensionless). Default: 1e-8.
-    #[range(TOLERANCE)]
-    pub tolerance: Option<f64>,
+    pub tolerance: Option<At<f64>>,
     /// With `increments = "auto"`: tolerance of the adaptive sub-stepping, relative to the change of the tractions over the
     /// increment. Default: 0.03.
     #[range(Range::between(1e-6, 0.5, "must lie between 1e-6 and 0.5").help("0.03 serves most purposes"))]
