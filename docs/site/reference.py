@@ -127,18 +127,19 @@ def closed_forms() -> str:
     """Return the page of the closed forms."""
     parts = [
         "# Closed-form solutions\n",
-        "<!-- Written by docs/site/reference.py from the docstrings of python/fretting/analytic: edit them there. -->\n",
+        "<!-- Written by docs/site/reference.py from the docstrings of python/fretting/analytic, which follow from crates/fret-core/src/analytic: edit them there. -->\n",
         "`fretting.analytic`: homogeneous half-spaces; several are recognised by `fret study` and drawn by `fret report`. Arguments and results: "
         "[Python](python.md#closed-forms).\n",
         "| function | problem | result | source |",
         "|---|---|---|---|",
     ]
-    for name in analytic.__all__:
+    for name in sorted(analytic.__all__):
         function = getattr(analytic, name)
         if not inspect.isfunction(function):
             continue
         text = inspect.getdoc(function) or ""
-        source = " ".join(text.partition("References\n----------\n")[2].split()).replace("*", "")
+        source = text.partition("References\n----------\n")[2].partition("\n\nExamples")[0]
+        source = " ".join(source.split()).replace("*", "")
         answer = inspect.signature(function).return_annotation
         fields = ", ".join(
             f"`{field}`" for field in getattr(answer, "__annotations__", {}) if not field.startswith("_")

@@ -14,28 +14,21 @@ __all__ = [
     "Start",
     "StoredRun",
     "__version__",
-    "cattaneo_line",
-    "cattaneo_mindlin",
     "check_derivatives",
     "check_memory",
     "check_results",
     "check_threads",
+    "closed_form",
+    "closed_forms",
     "coating_fracture",
     "command_line",
-    "cone",
     "contact_resistance",
     "crack",
-    "effective_moduli",
-    "equibiaxial_sphere",
     "expected",
     "fatigue",
     "first_order",
-    "flat_punch",
     "frequency_response",
     "gradient",
-    "hertz",
-    "hertz_ellipse",
-    "hertz_line",
     "identify",
     "identify_indentation",
     "influence_coefficients",
@@ -44,33 +37,21 @@ __all__ = [
     "mindlin_deresiewicz",
     "mindlin_deresiewicz_at",
     "moments",
-    "no_slip_punch",
-    "no_slip_sphere",
     "plan",
     "pulled_back",
     "quantile_fractions",
-    "rounded_punch",
     "run",
     "run_into",
     "sample_rows",
-    "sliding_cylinder",
     "sobol_indices",
     "spence_table",
     "statistics",
-    "stretched_line",
-    "stretched_sphere",
     "study",
     "subsurface_displacement",
     "subsurface_stress",
     "surface_temperature",
     "tangential_history",
-    "thick_layer",
-    "thin_layer",
-    "tilted_line_punch",
-    "tilted_punch",
-    "torsion",
     "vocabulary",
-    "westergaard",
 ]
 
 __version__: str
@@ -253,19 +234,10 @@ def subsurface_stress(
 @final
 class Solution:
     def numbers(self) -> str: ...
-    def curve(self, name: str, at: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
-    def surface(self, x: npt.NDArray[np.float64], y: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
+    def function(self, name: str, at: list[npt.NDArray[np.float64]]) -> npt.NDArray[np.float64]: ...
 
-def effective_moduli(lower: tuple[float, float], upper: tuple[float, float] | None) -> Solution: ...
-def hertz(sphere: tuple[float, float, float]) -> Solution: ...
-def hertz_ellipse(radii: tuple[float, float], force: float, modulus: float) -> Solution: ...
-def hertz_line(radius: float, line_force: float, modulus: float) -> Solution: ...
-def flat_punch(radius: float, force: float, modulus: float) -> Solution: ...
-def cone(slope: float, force: float, modulus: float) -> Solution: ...
-def westergaard(amplitude: float, wavelength: float, mean_pressure: float, modulus: float) -> Solution: ...
-def cattaneo_mindlin(
-    sphere: tuple[float, float, float], friction: float, shear_modulus: float, tangential_force: float
-) -> Solution: ...
+def closed_form(name: str, given: list[float]) -> Solution: ...
+def closed_forms() -> str: ...
 def mindlin_deresiewicz(
     sphere: tuple[float, float, float], friction: float, shear_modulus: float, amplitude: float
 ) -> tuple[Solution, Solution]: ...
@@ -287,24 +259,6 @@ def line_history(
     forces: list[float],
     datum: tuple[float, float] | None,
 ) -> Solution: ...
-def cattaneo_line(
-    cylinder: tuple[float, float, float], friction: float, tangential_force: float, strain: float
-) -> Solution: ...
-def stretched_line(cylinder: tuple[float, float, float], friction: float, strain: float) -> Solution: ...
-def stretched_sphere(
-    sphere: tuple[float, float, float],
-    friction: float,
-    shear_modulus: float,
-    tangential_force: float,
-    strain: float,
-) -> Solution: ...
-def equibiaxial_sphere(sphere: tuple[float, float, float], friction: float, strain: float) -> Solution: ...
-def sliding_cylinder(
-    radius: float, line_force: float, modulus: float, coupling: float, friction: float
-) -> Solution: ...
-def tilted_punch(radius: float, force: float, modulus: float, tilt: float) -> Solution: ...
-def tilted_line_punch(half_width: float, line_force: float, modulus: float, tilt: float) -> Solution: ...
-def torsion(sphere: tuple[float, float, float], friction: float, shear_modulus: float, moment: float) -> Solution: ...
 def fatigue(
     bodies: tuple[str, bool],
     setting: tuple[tuple[float, float], bool],
@@ -337,11 +291,6 @@ def coating_fracture(
     constants: str,
     threads: int | None,
 ) -> str: ...
-def rounded_punch(flat_radius: float, edge_radius: float, force: float, modulus: float) -> Solution: ...
-def no_slip_punch(radius: float, force: float, modulus: float, coupling: float) -> Solution: ...
-def no_slip_sphere(radius: float, force: float, modulus: float, coupling: float) -> Solution: ...
-def thin_layer(radius: float, force: float, layer: tuple[float, float, float]) -> Solution: ...
-def thick_layer(radius: float, contact_radius: float, layer: tuple[float, float, float]) -> Solution: ...
 def spence_table() -> str: ...
 def check_memory(what: str, bytes: int) -> None: ...  # noqa: A002  the name in the compiled module
 def expected(case: Case) -> str: ...

@@ -148,6 +148,12 @@ def test_the_page_of_keys_is_that_of_the_schema() -> None:
     assert page == written, "run docs/site/case_format.py"
 
 
+def test_closed_forms_are_those_of_the_catalogue() -> None:
+    written = (ROOT / "python" / "fretting" / "analytic" / "_generated.py").read_text(encoding="utf-8")
+    generated = module(ROOT / "docs" / "site" / "closed_forms.py").generated()
+    assert written == generated, "run docs/site/closed_forms.py"
+
+
 def test_reference_pages_say_what_the_program_says() -> None:
     generated = module(ROOT / "docs" / "site" / "reference.py")
     for name, page in generated.PAGES.items():

@@ -11,13 +11,12 @@ use fret_core::study::{Bar, Bars, Quantity, StageQuantities, error_bars, resolve
 use serde_json::{Value, json};
 
 use crate::defect;
-use crate::figures::{counted, duration, figure, shortened};
+use crate::figures::{counted, duration, figure, shortened, side_by_side};
 use crate::study::words::name;
 
 /// Stages that stand side by side in the table.
 const MOST_COLUMNS: usize = 3;
-/// Width of the names on the left, and of a column.
-const NAMES: usize = 30;
+/// Width of a column.
 const COLUMN: usize = 26;
 
 /// Why there are no error bars.
@@ -83,18 +82,11 @@ impl Estimate {
     /// The numbers with their bars, a column a stage.
     pub fn table(&self, stage_name: impl Fn(usize) -> String) -> String {
         let shown = &self.bars[self.bars.len().saturating_sub(MOST_COLUMNS)..];
-        let mut table = String::from("error bars, at the end of     ");
-        for bars in shown {
-            let _ = write!(table, "{:>COLUMN$}", shortened(&stage_name(bars.stage), COLUMN - 2));
-        }
-        table.push('\n');
+        let mut table = String::new();
         let mut row = |name: &str, cell: &dyn Fn(&Bars) -> String| {
-            let _ = write!(table, "{name:<NAMES$}");
-            for bars in shown {
-                let _ = write!(table, "{:>COLUMN$}", cell(bars));
-            }
-            table.push('\n');
+            side_by_side(&mut table, name, COLUMN, shown.iter().map(cell));
         };
+        row("error bars, at the end of", &|bars| shortened(&stage_name(bars.stage), COLUMN - 2));
         let dimension = Dimension::of(self.cells);
         for quantity in Quantity::ALL {
             let scalar = |bars: &Bars| number(&bars.of(quantity), 0);

@@ -49,6 +49,20 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
+/// Width of the names on the left of numbers that stand side by side.
+pub const NAMES: usize = 30;
+
+/// Adds a row of numbers side by side, in columns of so many letters; the first gives way to a long name.
+pub fn side_by_side(table: &mut String, name: &str, column: usize, values: impl Iterator<Item = String>) {
+    *table += &format!("{name:<NAMES$}");
+    let over = name.chars().count().saturating_sub(NAMES);
+    for (place, value) in values.enumerate() {
+        let width = if place == 0 { column.saturating_sub(over) } else { column };
+        *table += &format!("{value:>width$}");
+    }
+    table.push('\n');
+}
+
 /// Letters of a title where it stands alone, at the most.
 pub const LONGEST_TITLE: usize = 200;
 

@@ -4,6 +4,7 @@
 
 mod arguments;
 mod commands;
+mod csv;
 mod defect;
 mod drawing;
 pub mod embedded;

@@ -13,7 +13,9 @@ use serde_json::{Value, json};
 
 use crate::estimate::Estimate;
 use crate::failure::Failure;
-use crate::figures::{LONGEST_TITLE, counted, duration, figure, figure_beside, shortened};
+use crate::figures::{
+    LONGEST_TITLE, NAMES, counted, duration, figure, figure_beside, shortened, side_by_side,
+};
 use crate::methods::paragraph;
 use fret_results::Tally;
 use fret_results::commit::COMMIT;
@@ -22,8 +24,6 @@ use fret_results::commit::COMMIT;
 const MOST_COLUMNS: usize = 4;
 /// Cycles that are listed one by one.
 const MOST_CYCLES: usize = 6;
-/// Width of the names on the left.
-const NAMES: usize = 30;
 /// Width of a column of numbers.
 const COLUMN: usize = 15;
 
@@ -59,16 +59,21 @@ impl Summary<'_> {
         let ends = &self.tally.stage_ends;
         let shown = &ends[ends.len().saturating_sub(MOST_COLUMNS)..];
         let names = shown.iter().map(|record| self.stage_name(record.stage));
-        row(&mut table, "after stage", names.map(|name| shortened(name, COLUMN - 2)));
+        side_by_side(&mut table, "after stage", COLUMN, names.map(|name| shortened(name, COLUMN - 2)));
         for (name, kind, reading) in self.readings() {
-            row(&mut table, &self.plan.case.heading(name, kind), shown.iter().map(reading));
+            side_by_side(&mut table, &self.plan.case.heading(name, kind), COLUMN, shown.iter().map(reading));
         }
         if self.plan.case.wear.is_some() || self.plan.case.friction_evolution.is_some() {
             let cycles = || shown.iter().map(|record| self.cycles_of(record.stage));
             let told = |number: Option<usize>| number.map_or("-".to_owned(), |number| number.to_string());
-            row(&mut table, "cycles", cycles().map(|over| told(over.map(|[all, _]| all))));
+            side_by_side(&mut table, "cycles", COLUMN, cycles().map(|over| told(over.map(|[all, _]| all))));
             if cycles().flatten().any(|[all, solved]| all != solved) {
-                row(&mut table, "cycles solved", cycles().map(|over| told(over.map(|[_, solved]| solved))));
+                side_by_side(
+                    &mut table,
+                    "cycles solved",
+                    COLUMN,
+                    cycles().map(|over| told(over.map(|[_, solved]| solved))),
+                );
             }
         }
         if shown.len() < ends.len() {
@@ -223,7 +228,7 @@ impl Summary<'_> {
             };
             let value = figure(energy.dissipated_energy);
             let name = self.plan.case.heading(&name, "force x length");
-            row(table, &format!("{name} "), std::iter::once(value));
+            side_by_side(table, &format!("{name} "), COLUMN, std::iter::once(value));
             table.truncate(table.len() - 1);
             let _ = writeln!(table, "  {}", self.stage_name(energy.stage));
         };
@@ -251,7 +256,12 @@ impl Summary<'_> {
         let told = |value: Option<f64>| value.map_or("-".to_owned(), figure);
         let stage = self.stage_name(cycle.stage);
         let _ = writeln!(table, "in cycle {} of {stage}:", cycle.last_cycle);
-        row(table, "sliding condition", std::iter::once(sliding_condition(cycle).to_owned()));
+        side_by_side(
+            table,
+            "sliding condition",
+            COLUMN,
+            std::iter::once(sliding_condition(cycle).to_owned()),
+        );
         for ((name, kind), value) in [
             (force, Some(cycle.force_amplitude)),
             (motion, Some(cycle.displacement_amplitude)),
@@ -259,7 +269,7 @@ impl Summary<'_> {
             (("energy ratio A", ""), cycle.energy_ratio),
             (("sliding ratio D", ""), cycle.sliding_ratio),
         ] {
-            row(table, &self.plan.case.heading(name, kind), std::iter::once(told(value)));
+            side_by_side(table, &self.plan.case.heading(name, kind), COLUMN, std::iter::once(told(value)));
         }
     }
 
@@ -340,17 +350,6 @@ const LONGEST_LINE: usize = 1000;
 /// A warning in a line: words and a way out.
 pub fn warning_line(warning: &Warning) -> String {
     shortened(&format!("warning: {}; {}", warning.message, warning.help), LONGEST_LINE)
-}
-
-/// A row of the table; the first number gives way to a long name.
-fn row(table: &mut String, name: &str, values: impl Iterator<Item = String>) {
-    let _ = write!(table, "{name:<NAMES$}");
-    let over = (name.chars().count() + 1).saturating_sub(NAMES);
-    for (place, value) in values.enumerate() {
-        let width = if place == 0 { COLUMN.saturating_sub(over.saturating_sub(1)) } else { COLUMN };
-        let _ = write!(table, "{value:>width$}");
-    }
-    table.push('\n');
 }
 
 /// The sliding condition of a cycle, in words.

@@ -32,11 +32,8 @@ mod _core {
 
     #[pymodule_export]
     use crate::analytic::{
-        Solution, cattaneo_line, cattaneo_mindlin, cone, effective_moduli, equibiaxial_sphere, flat_punch,
-        hertz, hertz_ellipse, hertz_line, line_history, mindlin_deresiewicz, mindlin_deresiewicz_at,
-        no_slip_punch, no_slip_sphere, rounded_punch, sliding_cylinder, spence_table, stretched_line,
-        stretched_sphere, tangential_history, thick_layer, thin_layer, tilted_line_punch, tilted_punch,
-        torsion, westergaard,
+        Solution, closed_form, closed_forms, line_history, mindlin_deresiewicz, mindlin_deresiewicz_at,
+        spence_table, tangential_history,
     };
     #[pymodule_export]
     use crate::case::Case;

@@ -32,6 +32,10 @@
 //! ```
 //!
 //! and what implements `Keys` can be read as a table.
+//!
+//! Beside it, for closed forms: `#[derive(Numbers)]` and `#[functions]`, by which a solution says what it holds in the words of its doc comments.
+
+mod described;
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -50,6 +54,20 @@ pub fn table(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
         Data::Union(_) => Err(Error::new_spanned(&input.ident, "a table is a struct or an enum")),
     };
     implementation.unwrap_or_else(Error::into_compile_error).into()
+}
+
+/// The public fields of a closed form's solution, with their doc comments.
+#[proc_macro_derive(Numbers)]
+pub fn numbers(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
+    let input = syn::parse_macro_input!(input as DeriveInput);
+    described::numbers(&input).unwrap_or_else(Error::into_compile_error).into()
+}
+
+/// The methods of a closed form's solution that are marked `#[shown]`, with their doc comments.
+#[proc_macro_attribute]
+pub fn functions(_: proc_macro::TokenStream, item: proc_macro::TokenStream) -> proc_macro::TokenStream {
+    let implementation = syn::parse_macro_input!(item as syn::ItemImpl);
+    described::functions(implementation).unwrap_or_else(Error::into_compile_error).into()
 }
 
 /// A table: its keys, and its fields read by them.

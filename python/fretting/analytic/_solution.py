@@ -38,9 +38,14 @@ def layer_numbers(layer: Layer) -> tuple[float, float, float]:
     return young, poisson, thickness
 
 
+def solution_of(name: str, *given: float) -> _core.Solution:
+    """Return the solution of a closed form of the catalogue for the numbers of its parameters."""
+    return _core.closed_form(name, list(given))
+
+
 def numbers_of(solution: _core.Solution) -> dict[str, Any]:
     numbers: dict[str, Any] = json.loads(solution.numbers())
-    return numbers
+    return {name: tuple(value) if isinstance(value, list) else value for name, value in numbers.items()}
 
 
 def of_each(numbers: dict[str, Any]) -> dict[str, Any]:
@@ -53,12 +58,8 @@ def forces_of(tangential_forces: npt.ArrayLike) -> list[float]:
     return found
 
 
-def curve(solution: _core.Solution, name: str, at: npt.ArrayLike) -> Reals:
-    places = real_array(name, at)
-    return solution.curve(name, places.ravel()).reshape(places.shape)
-
-
-def surface(solution: _core.Solution, x: npt.ArrayLike, y: npt.ArrayLike) -> Reals:
-    along, across = np.broadcast_arrays(real_array("x", x), real_array("y", y))
-    flat = [np.ascontiguousarray(places.ravel(), dtype=np.float64) for places in (along, across)]
-    return solution.surface(flat[0], flat[1]).reshape(along.shape)
+def values_of(solution: _core.Solution, name: str, **at: npt.ArrayLike) -> Reals:
+    """Return a function of the solution at points: one coordinate, or several of one broadcast shape."""
+    places = np.broadcast_arrays(*(real_array(coordinate, values) for coordinate, values in at.items()))
+    flat = [np.ascontiguousarray(one.ravel(), dtype=np.float64) for one in places]
+    return solution.function(name, flat).reshape(places[0].shape)

@@ -6,15 +6,14 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use fret_core::model::Dimension;
 use fret_core::scar::{Asked, Comparison, Line, Pair, compare, read};
-use fret_core::units::Units;
 use ndarray::Array2;
 use serde_json::{Value, json};
 
 use super::columns_asked::pairs;
 use super::identify::content;
 use crate::arguments::CompareScarArguments;
+use crate::csv::{Column, csv};
 use crate::drawing::chart::{Chart, Curve};
 use crate::drawing::scale::Label;
 use crate::failure::Failure;
@@ -148,15 +147,15 @@ impl BesideMeasured<'_> {
     }
 
     fn csv(&self) -> String {
-        let head = |name: &str| Units::heading(self.run.units(), name, "length", Dimension::Plane);
-        let mut text =
-            format!("{},{},{}\n", head(self.along), head("computed_depth"), head("measured_depth"));
-        for ((x, computed), measured) in
-            self.found.x.iter().zip(&self.found.computed).zip(&self.found.measured)
-        {
-            let _ = writeln!(text, "{x:e},{computed:e},{measured:e}");
-        }
-        text
+        let Comparison { x, computed, measured, .. } = self.found;
+        let rows =
+            x.iter().zip(computed).zip(measured).map(|((x, computed), measured)| [*x, *computed, *measured]);
+        let columns: [Column<'_, [f64; 3]>; 3] = [
+            (self.along, "length", &|row| row[0].into()),
+            ("computed_depth", "length", &|row| row[1].into()),
+            ("measured_depth", "length", &|row| row[2].into()),
+        ];
+        csv(self.run.units(), &columns, rows)
     }
 
     fn picture(&self) -> String {

@@ -1,20 +1,21 @@
 //! A short crack from the most severe place of the surface, through the last cycle.
 
-use std::fmt::Write as _;
-
-use fret_core::model::{Dimension, HalfSpace};
-use fret_core::subsurface::crack::{CrackCourse, CrackFate, crack_course};
+use fret_core::model::HalfSpace;
+use fret_core::subsurface::crack::{CrackCourse, CrackFate, CrackLength, crack_course};
 use fret_core::subsurface::crack_path::{CrackStart, NoCrack, crack_path};
 use fret_core::subsurface::fatigue::{LayerConstants, Parameter};
 use fret_core::subsurface::severity::constants_of;
 use fret_core::subsurface::{LoadedSurface, MostSevere};
-use fret_core::units::Units;
 
 use super::stress_record::CrackRecord;
+use crate::csv::{Column, csv};
 use crate::failure::Failure;
 use crate::figures::{figure, figure_in};
 use crate::interrupt;
 use fret_results::Results;
+
+/// Kind of a stress intensity.
+const INTENSITY: &str = "pressure length^1/2";
 
 /// Where the crack runs.
 pub struct Crack<'a> {
@@ -101,19 +102,15 @@ impl Crack<'_> {
             figure_in(units, y, "length"),
             figure(degrees)
         );
-        let intensity = |name: &str| Units::heading(units, name, "pressure length^1/2", Dimension::Plane);
-        let [k1_max, k1_range, k2_range, threshold] =
-            ["k1_max", "k1_range", "k2_range", "threshold"].map(intensity);
-        let length = Units::heading(units, "length", "length", Dimension::Plane);
-        let mut csv = format!("{length},{k1_max},{k1_range},{k2_range},{threshold},cycles\n");
-        for at in &course.lengths {
-            let cycles = at.cycles.map_or(String::new(), |cycles| format!("{cycles:e}"));
-            let _ = writeln!(
-                csv,
-                "{:e},{:e},{:e},{:e},{:e},{cycles}",
-                at.length, at.largest, at.range, at.sliding_range, at.threshold
-            );
-        }
+        let columns: [Column<'_, &CrackLength>; 6] = [
+            ("length", "length", &|at| at.length.into()),
+            ("k1_max", INTENSITY, &|at| at.largest.into()),
+            ("k1_range", INTENSITY, &|at| at.range.into()),
+            ("k2_range", INTENSITY, &|at| at.sliding_range.into()),
+            ("threshold", INTENSITY, &|at| at.threshold.into()),
+            ("cycles", "", &|at| at.cycles.into()),
+        ];
+        let csv = csv(units, &columns, &course.lengths);
         CrackAnswer { record, table, csv: Some(csv) }
     }
 }

@@ -1,7 +1,8 @@
 //! `fret explain`: what a warning means, and what to do.
 
-use fret_core::history::Concern;
-use serde_json::{Value, json};
+use fret_core::history::concern::{ROWS, Row};
+use serde::Serialize;
+use serde_json::json;
 
 use crate::failure::Failure;
 use crate::terminal::Answer;
@@ -17,15 +18,12 @@ pub fn explain(name: Option<&str>) -> Result<Answer, Failure> {
     let Some(name) = name else { return Ok(list()) };
     let asked = plain(name);
     // by its name, or by the words that its message begins with, if those are of one alone
-    let begins = |concern: &Concern| !asked.is_empty() && plain(concern.quantity()).starts_with(&asked);
-    let begun: Vec<Concern> = Concern::ALL.into_iter().filter(begins).collect();
-    let named = Concern::ALL
-        .into_iter()
-        .find(|concern| [concern.name(), concern.quantity()].map(plain).contains(&asked));
-    let concern = named.or(if let [one] = begun[..] { Some(one) } else { None });
-    let Some(concern) = concern else {
-        let is_near = |concern: &Concern| begun.contains(concern) || plain(concern.name()).contains(&asked);
-        let near: Vec<&str> = Concern::ALL.into_iter().filter(is_near).map(Concern::name).collect();
+    let begins = |row: &Row| !asked.is_empty() && plain(row.quantity).starts_with(&asked);
+    let begun: Vec<Row> = ROWS.into_iter().filter(begins).collect();
+    let named = ROWS.into_iter().find(|row| [row.name, row.quantity].map(plain).contains(&asked));
+    let Some(row) = named.or(if let [one] = begun[..] { Some(one) } else { None }) else {
+        let is_near = |row: &Row| begun.contains(row) || plain(row.name).contains(&asked);
+        let near: Vec<&str> = ROWS.into_iter().filter(is_near).map(|row| row.name).collect();
         let help = if near.is_empty() || near.len() > MOST_NEAR {
             "`fret explain` lists them all".to_owned()
         } else {
@@ -33,34 +31,26 @@ pub fn explain(name: Option<&str>) -> Result<Answer, Failure> {
         };
         return Err(Failure::Call(format!("no warning is called {name:?}"), help));
     };
-    let side = if concern.warns_below() { "at least" } else { "at most" };
+    let Row { name, quantity, bound, warns_below, consequence, help, .. } = row;
+    let side = if warns_below { "at least" } else { "at most" };
     let text = format!(
-        "{}\n\n  what      {}\n  bound     {side} {}\n  meaning   {}\n  to do     {}\n  manual    {PAGE}",
-        concern.name(),
-        concern.quantity(),
-        concern.bound(),
-        concern.consequence(),
-        concern.help()
+        "{name}\n\n  what      {quantity}\n  bound     {side} {bound}\n  meaning   {consequence}\n  to do     {help}\n  manual    {PAGE}"
     );
-    Ok(Answer::new(of(concern), text, false))
+    Ok(Answer::new(json!(Explained { row, page: PAGE }), text, false))
 }
 
 fn list() -> Answer {
-    let lines = Concern::ALL.map(|concern| format!("\n  {:<35}{}", concern.name(), concern.quantity()));
+    let lines = ROWS.map(|Row { name, quantity, .. }| format!("\n  {name:<35}{quantity}"));
     let text = format!("warnings, `fret explain NAME` tells more:{}", lines.concat());
-    Answer::new(json!({ "warnings": Concern::ALL.map(of) }), text, false)
+    Answer::new(json!({ "warnings": ROWS.map(|row| Explained { row, page: PAGE }) }), text, false)
 }
 
-fn of(concern: Concern) -> Value {
-    json!({
-        "name": concern.name(),
-        "quantity": concern.quantity(),
-        "bound": concern.bound(),
-        "warns_below": concern.warns_below(),
-        "consequence": concern.consequence(),
-        "help": concern.help(),
-        "page": PAGE,
-    })
+/// A warning with its place in the manual.
+#[derive(Serialize)]
+struct Explained {
+    #[serde(flatten)]
+    row: Row,
+    page: &'static str,
 }
 
 /// Letters and digits alone, small: dashes, blanks and underscores do not matter.

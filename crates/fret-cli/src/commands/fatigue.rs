@@ -3,19 +3,19 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use fret_core::model::{Dimension, HalfSpace};
+use fret_core::model::HalfSpace;
 use fret_core::subsurface::coating_fracture::Film;
 use fret_core::subsurface::fatigue::{LayerConstants, Parameter};
 use fret_core::subsurface::film_stress::{FilmCrack, FilmStress};
 use fret_core::subsurface::severity::{constants_of, material_of};
 use fret_core::subsurface::{DepthPoint, Judged, LoadedSurface, MostSevere, Severity, StressField};
-use fret_core::units::Units;
 
 use super::crack::{Crack, CrackAnswer};
 use super::stress_record::{
     AtDistance, Bounded, CriticalDistance, FatigueRecord, FilmRecord, ParameterRecord, UNLIMITED,
 };
 use crate::commands::stress_kinds::kind_of_stress;
+use crate::csv::{Cell, Column, csv};
 use crate::failure::Failure;
 use crate::figures::{figure, figure_in};
 use fret_results::Results;
@@ -229,33 +229,29 @@ impl<'a> Fatigue<'a> {
 
     /// Lines of `fatigue.csv`: the largest value of every parameter in every layer.
     fn by_layer(&self, judged: &Judged) -> String {
-        let head = |name: &str| Units::heading(self.run.units(), name, "length", Dimension::Plane);
-        let [x, y, depth] = ["x", "y", "depth"].map(head);
-        let mut text = format!(
-            "parameter,layer,largest,{x},{y},{depth},cycles,factor_of_safety,largest_cell,largest_cell_cycles,normal_x,normal_y,normal_z,point_method,line_method\n"
-        );
-        for found in &judged.found {
-            let [x, y] = self.place(found.cell, found.off);
-            let optional = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:e}"));
-            let at =
-                judged.at_distance.iter().find(|(of, _)| *of == found.parameter && found.point.layer == 0);
-            let [point, line] = [at.map(|(_, at)| at.point.0), at.map(|(_, at)| at.line.0)].map(optional);
-            let [along, across, down] =
-                [0, 1, 2].map(|axis| optional(found.normal.map(|normal| normal[axis])));
-            let _ = writeln!(
-                text,
-                "{},{},{:e},{x:e},{y:e},{:e},{},{},{:e},{},{along},{across},{down},{point},{line}",
-                found.parameter.name(),
-                found.point.layer,
-                found.value,
-                found.point.depth,
-                optional(found.cycles),
-                optional(found.factor_of_safety),
-                found.of_cells,
-                optional(found.cycles_of_cells)
-            );
-        }
-        text
+        let at = |found: &MostSevere| {
+            let mut known = judged.at_distance.iter().filter(|_| found.point.layer == 0);
+            known.find(|(of, _)| *of == found.parameter).map(|(_, at)| at)
+        };
+        let normal = |found: &MostSevere, axis: usize| Cell::from(found.normal.map(|normal| normal[axis]));
+        let columns: [Column<'_, &MostSevere>; 15] = [
+            ("parameter", "", &|found| found.parameter.name().into()),
+            ("layer", "", &|found| found.point.layer.into()),
+            ("largest", "", &|found| found.value.into()),
+            ("x", "length", &|found| self.place(found.cell, found.off)[0].into()),
+            ("y", "length", &|found| self.place(found.cell, found.off)[1].into()),
+            ("depth", "length", &|found| found.point.depth.into()),
+            ("cycles", "", &|found| found.cycles.into()),
+            ("factor_of_safety", "", &|found| found.factor_of_safety.into()),
+            ("largest_cell", "", &|found| found.of_cells.into()),
+            ("largest_cell_cycles", "", &|found| found.cycles_of_cells.into()),
+            ("normal_x", "", &|found| normal(found, 0)),
+            ("normal_y", "", &|found| normal(found, 1)),
+            ("normal_z", "", &|found| normal(found, 2)),
+            ("point_method", "", &|found| at(found).map(|at| at.point.0).into()),
+            ("line_method", "", &|found| at(found).map(|at| at.line.0).into()),
+        ];
+        csv(self.run.units(), &columns, &judged.found)
     }
 
     /// Channelling and delamination of the outermost coating.

@@ -14,14 +14,20 @@ use serde_json::json;
 use super::fatigue::{Fatigue, Finished, Picture};
 use super::stress_record::{LargestRecord, StressRecord};
 use crate::commands::stress_kinds::{kind_of_stress, stress_called};
+use crate::csv::{Column, csv};
 use crate::drawing::section::Section;
 use crate::failure::Failure;
 use crate::figures::{counted, duration, figure};
 use fret_results::Results;
 use fret_results::write_whole;
 
+/// Measures that are no tension at all where they are not above zero.
+const TENSIONS: [&str; 3] = ["tension", "hydrostatic", "peel"];
 /// More sections than this are not drawn.
 const MOST_SECTIONS: usize = 12;
+
+/// An increment, a depth, and the largest value of each measure there.
+type AtDepth = (usize, DepthPoint, [Option<f64>; Measure::ALL.len()]);
 
 /// What is noted on the way, and written at the end.
 pub struct StressTables<'a> {
@@ -32,8 +38,8 @@ pub struct StressTables<'a> {
     surfaces: &'a [LoadedSurface],
     interfaces: Vec<f64>,
     largest: Vec<Largest>,
-    /// Lines of `depths.csv`.
-    by_depth: String,
+    /// Rows of `depths.csv`.
+    by_depth: Vec<AtDepth>,
     /// Row of cells nearest to y = 0.
     row: usize,
     /// Von Mises along that row, `[surface][point][i]`.
@@ -67,7 +73,7 @@ impl<'a> StressTables<'a> {
             surfaces,
             interfaces: half_space.interfaces(),
             largest: Vec::new(),
-            by_depth: head_by_depth(run.units()),
+            by_depth: Vec::new(),
             row,
             sections: vec![Vec::new(); surfaces.len()],
             fatigue,
@@ -81,13 +87,8 @@ impl<'a> StressTables<'a> {
         let mut here = Vec::new();
         let pressure = (place.depth == 0.0).then_some(&self.surfaces[surface].pressure);
         look(&mut here, field, place, is_interface, increment, pressure);
-        let value = |measure: Measure| {
-            here.iter()
-                .find(|found: &&Largest| found.measure == measure)
-                .map_or(String::new(), |found| format!("{:e}", found.value))
-        };
-        let values = Measure::ALL.map(value).join(",");
-        let _ = writeln!(self.by_depth, "{increment},{:e},{},{values}", place.depth, place.layer);
+        let value = |measure| here.iter().find(|found| found.measure == measure).map(|found| found.value);
+        self.by_depth.push((increment, place, Measure::ALL.map(value)));
         for found in here {
             match self.largest.iter_mut().find(|known| known.measure == found.measure) {
                 Some(known) if found.value > known.value => *known = found,
@@ -134,12 +135,22 @@ impl<'a> StressTables<'a> {
             wall_s,
         };
         write_whole(&place.join("stress.json"), format!("{:#}\n", json!(record)).as_bytes())?;
-        write_whole(&place.join("depths.csv"), self.by_depth.as_bytes())?;
+        let values = [0, 1, 2, 3, 4, 5].map(|place| move |(_, _, values): &AtDepth| values[place].into());
+        let mut columns: Vec<Column<'_, AtDepth>> = vec![
+            ("increment", "", &|(increment, ..)| (*increment).into()),
+            ("depth", "length", &|(_, point, _)| point.depth.into()),
+            ("layer", "", &|(_, point, _)| point.layer.into()),
+        ];
+        for (measure, value) in Measure::ALL.into_iter().zip(&values) {
+            columns.push((measure.name(), kind_of_stress(measure.name()), value));
+        }
+        let by_depth = csv(self.run.units(), &columns, self.by_depth.drain(..));
+        write_whole(&place.join("depths.csv"), by_depth.as_bytes())?;
         for (name, content) in &fatigue.files {
             write_whole(&place.join(name), content.as_bytes())?;
         }
         self.draw(place, &self.run.grid().centres(0).to_vec(), &fatigue.pictures)?;
-        let table = self.table(place, &fatigue.table, wall_s);
+        let table = self.table(&record, place, &fatigue.table);
         Ok((record, table))
     }
 
@@ -204,14 +215,14 @@ impl<'a> StressTables<'a> {
         Ok(())
     }
 
-    fn table(&self, place: &Path, fatigue: &str, wall_s: f64) -> String {
-        let unfinished = self.run.unfinished().map_or(String::new(), |why| format!("{why}\n"));
+    fn table(&self, record: &StressRecord, place: &Path, fatigue: &str) -> String {
+        let unfinished = record.unfinished.as_ref().map_or(String::new(), |why| format!("{why}\n"));
         let mut text = unfinished
             + &format!(
                 "stress in the {} body: {} at {}, counted from 0\n\n",
-                self.request.body.name(),
-                counted(self.points.len(), "depth"),
-                counted(self.surfaces.len(), "increment"),
+                record.body,
+                counted(record.depths.len(), "depth"),
+                counted(record.increments.len(), "increment"),
             );
         let head = |name: &str, kind: &str| Units::heading(self.run.units(), name, kind, Dimension::Plane);
         let [value, x, y, depth] =
@@ -222,40 +233,27 @@ impl<'a> StressTables<'a> {
             "  {:<18} {value:<12} {:<10} {x:<12} {y:<12} {depth:<12} in",
             "maximum", "increment"
         );
-        for found in &self.largest {
-            if found.value <= 0.0 && names_tension(found.measure) {
-                let name = found.measure.name().replace('_', " ");
+        for found in &record.largest {
+            let name = found.measure.replace('_', " ");
+            if found.value <= 0.0 && TENSIONS.contains(&found.measure.as_str()) {
                 let _ = writeln!(text, "  {name:<18} none: compression everywhere");
                 continue;
             }
             let _ = writeln!(
                 text,
-                "  {:<18} {:<12} {:<10} {:<12} {:<12} {:<12} {}",
-                found.measure.name().replace('_', " "),
+                "  {name:<18} {:<12} {:<10} {:<12} {:<12} {:<12} {}",
                 figure(found.value),
                 found.increment,
-                figure(self.place_of(found, 0)),
-                figure(self.place_of(found, 1)),
-                figure(found.point.depth),
-                self.layer_name(found.point.layer)
+                figure(found.x),
+                figure(found.y),
+                figure(found.depth),
+                found.layer
             );
         }
         if !fatigue.is_empty() {
             let _ = write!(text, "\n{fatigue}");
         }
-        let _ = write!(text, "\nwritten to {} in {}", place.display(), duration(wall_s));
+        let _ = write!(text, "\nwritten to {} in {}", place.display(), duration(record.wall_s));
         text
     }
-}
-
-/// The head of `depths.csv`.
-fn head_by_depth(units: Option<&Units>) -> String {
-    let head = |name: &str, kind: &str| Units::heading(units, name, kind, Dimension::Plane);
-    let measures = Measure::ALL.map(|measure| head(measure.name(), kind_of_stress(measure.name())));
-    format!("increment,{},layer,{}\n", head("depth", "length"), measures.join(","))
-}
-
-/// Whether a number that is not above zero is no tension at all.
-fn names_tension(measure: Measure) -> bool {
-    matches!(measure, Measure::Tension | Measure::Hydrostatic | Measure::Peel)
 }

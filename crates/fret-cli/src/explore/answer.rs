@@ -13,23 +13,23 @@ use rayon::ThreadPool;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
+use super::part::{Part, ROOM};
 use super::question::{Question, Values, Written};
 use super::stress::stress_below;
 use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::map::Map;
-use crate::drawing::raster::{Raster, pixels_for};
+use crate::drawing::raster::Raster;
 use crate::drawing::scale::Label;
 use crate::drawing::section::Section;
 use crate::failure::Failure;
 use crate::figures::unit_of;
 use crate::interrupt::Keeper;
 use crate::report::html::{number, percent};
+use crate::report::legend_of_zones;
 use crate::sweep::{Path, direction, last_cycle};
 
 /// Width of a map.
 const WIDTH: f64 = 400.0;
-/// Room around the contact in a map, over its width.
-const ROOM: f64 = 0.12;
 
 /// What the page asks.
 #[derive(Debug, Clone, Deserialize)]
@@ -203,13 +203,13 @@ impl<'a> View<'a> {
             return Ok(figures.into());
         };
         add("section", self.section(kept, pressure));
-        let window = Window::of(self.history, pressure);
+        let window = Part::of(&self.history.grid, pressure);
         if let Some(zone) = kept.zone.as_ref().filter(|_| !self.plan.case.friction.is_frictionless()) {
             let image = Raster::of_zones(window.size, |column, row| {
                 let [i, j] = window.cell(column, row);
                 f64::from(zone[[i, j]] as u8)
             });
-            add("zones", html! { (self.map("stick and slip", &window, &image, None)?) (legend()) });
+            add("zones", html! { (self.map("stick and slip", &window, &image, None)?) (legend_of_zones()) });
         }
         if self.dimension == Dimension::Plane {
             let most = pressure.iter().copied().fold(0.0, f64::max);
@@ -287,7 +287,7 @@ impl<'a> View<'a> {
         }
     }
 
-    fn map(&self, what: &str, window: &Window, image: &Raster, most: Option<f64>) -> Result<Markup, Failure> {
+    fn map(&self, what: &str, window: &Part, image: &Raster, most: Option<f64>) -> Result<Markup, Failure> {
         let y = match self.dimension {
             Dimension::Plane => self.label("y", "length"),
             Dimension::Line => Label::plain(""),
@@ -384,53 +384,4 @@ impl<'a> View<'a> {
 /// A word of a file for a person.
 fn spoken(word: &Value) -> String {
     word.as_str().map_or("–".to_owned(), |word| word.replace('_', " "))
-}
-
-fn legend() -> Markup {
-    html! {
-        ul class="legend" {
-            @for (class, name) in [("stick", "stick"), ("slip", "slip"), ("open", "no contact")] {
-                li { span class=(format!("swatch {class}")) {} (name) }
-            }
-        }
-    }
-}
-
-/// The part of the grid that maps show: the contact with some room around it.
-struct Window {
-    first: [usize; 2],
-    cells: [usize; 2],
-    size: [usize; 2],
-    edges: [[f64; 2]; 2],
-}
-
-impl Window {
-    fn of(history: &History, pressure: &Array2<f64>) -> Self {
-        let grid = &history.grid;
-        let all = grid.cells();
-        let (mut first, mut last) = (all, [0, 0]);
-        for ((i, j), _) in pressure.indexed_iter().filter(|(_, pressure)| **pressure > 0.0) {
-            (first[0], first[1]) = (first[0].min(i), first[1].min(j));
-            (last[0], last[1]) = (last[0].max(i), last[1].max(j));
-        }
-        for axis in 0..2 {
-            if first[axis] > last[axis] {
-                (first[axis], last[axis]) = (0, all[axis] - 1);
-            }
-            let room = (ROOM * (last[axis] + 1 - first[axis]) as f64).ceil() as usize;
-            first[axis] = first[axis].saturating_sub(room);
-            last[axis] = (last[axis] + room).min(all[axis] - 1);
-        }
-        let cells = [0, 1].map(|axis| last[axis] + 1 - first[axis]);
-        let edges = [0, 1].map(|axis| {
-            let half = 0.5 * grid.spacing()[axis];
-            [grid.centre(axis, first[axis]) - half, grid.centre(axis, last[axis]) + half]
-        });
-        Self { first, cells, size: cells.map(pixels_for), edges }
-    }
-
-    /// The cell that a pixel shows, rows from the top.
-    fn cell(&self, column: usize, row: usize) -> [usize; 2] {
-        crate::report::cell_of_pixel(self.first, self.cells, self.size, [column, row])
-    }
 }

@@ -1,13 +1,12 @@
 //! A measured indentation, and what is told of it: record, text, table and page.
 
 use fret_core::identify::{self, Constant, Indentation, IndentationRequest, Numbers};
-use fret_core::model::Dimension;
-use fret_core::units::Units;
 use maud::{Markup, html};
 use serde_json::{Map, Value, json};
 
 use super::record::{of_constant, rows_in_words};
 use super::{case_with, dotted, value_of};
+use crate::csv::{Column, csv};
 use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::scale::Label;
 use crate::failure::Failure;
@@ -133,19 +132,15 @@ impl IndentationAnswer {
     /// The points that were fitted, as CSV: line in the log, depth from the touch on, load, computed load, their difference.
     pub fn table(&self) -> String {
         let found = &self.found;
-        let units = found.has_units.then_some(&found.units);
-        let head = |name: &str, kind: &str| Units::heading(units, name, kind, Dimension::Plane);
-        let mut text = format!(
-            "line,{},{},{},{}\n",
-            head("depth", "length"),
-            head("force", "force"),
-            head("computed_force", "force"),
-            head("residual", "force")
-        );
-        for (line, [depth, load, computed]) in found.lines.iter().zip(&found.points) {
-            text += &format!("{line},{depth:e},{load:e},{computed:e},{:e}\n", load - computed);
-        }
-        text
+        let columns: [Column<'_, (&usize, &[f64; 3])>; 5] = [
+            ("line", "", &|(line, _)| (**line).into()),
+            ("depth", "length", &|(_, point)| point[0].into()),
+            ("force", "force", &|(_, point)| point[1].into()),
+            ("computed_force", "force", &|(_, point)| point[2].into()),
+            ("residual", "force", &|(_, point)| (point[1] - point[2]).into()),
+        ];
+        let rows = found.lines.iter().zip(&found.points);
+        csv(found.has_units.then_some(&found.units), &columns, rows)
     }
 
     /// The page with its pictures.

@@ -16,10 +16,11 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::drawing;
 use crate::failure::Failure;
-pub use chapters::{cell_of_pixel, json_in_page};
+pub use chapters::{cell_of_pixel, json_in_page, legend_of_zones};
 use fret_results::Results;
 use overview::Overview;
 pub use sweep::called;
+pub use window::Window;
 
 /// The style of the page.
 const STYLE: &str = include_str!("page.css");

@@ -26,20 +26,33 @@ impl Window {
         for i in 0..self.grid[0] {
             for j in 0..self.grid[1] {
                 if field.at(i, j) != 0.0 {
-                    self.low = [self.low[0].min(i), self.low[1].min(j)];
-                    self.high = [self.high[0].max(i), self.high[1].max(j)];
+                    self.take([i, j]);
                 }
             }
         }
     }
 
+    /// Takes in a cell.
+    pub fn take(&mut self, cell: [usize; 2]) {
+        for axis in 0..2 {
+            self.low[axis] = self.low[axis].min(cell[axis]);
+            self.high[axis] = self.high[axis].max(cell[axis]);
+        }
+    }
+
     /// First cell and number of cells along each axis, with a margin; the whole grid where there is no contact.
     pub fn cells(&self) -> ([usize; 2], [usize; 2]) {
+        self.cells_with(|_| MARGIN)
+    }
+
+    /// The same with a margin that follows from the cells of the contact along an axis.
+    pub fn cells_with(&self, margin: impl Fn(usize) -> usize) -> ([usize; 2], [usize; 2]) {
         if self.low[0] > self.high[0] {
             return ([0; 2], self.grid);
         }
-        let first = self.low.map(|low| low.saturating_sub(MARGIN));
-        let end = [0, 1].map(|axis| (self.high[axis] + 1 + MARGIN).min(self.grid[axis]));
+        let margin = [0, 1].map(|axis| margin(self.high[axis] + 1 - self.low[axis]));
+        let first = [0, 1].map(|axis| self.low[axis].saturating_sub(margin[axis]));
+        let end = [0, 1].map(|axis| (self.high[axis] + 1 + margin[axis]).min(self.grid[axis]));
         (first, [end[0] - first[0], end[1] - first[1]])
     }
 

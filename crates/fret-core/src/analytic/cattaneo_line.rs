@@ -1,20 +1,24 @@
 //! A cylinder pressed on a half-space, pushed across its axis while one of the bodies is stretched.
 
+use fret_table::{Numbers, functions};
 use serde::Serialize;
 
 use super::elliptic_integrals::CompleteElliptic;
 use super::error::{AnalyticError, positive, within};
+use super::form::{Contents, Form, Functions, solved};
 use super::hertz_line::HertzLine;
 use super::moduli::effective_modulus;
+use super::parameter::{CYLINDER, FRICTION, STRAIN, STRAIN_OR_NONE, number};
 use super::root::root_of_increasing;
 
 /// Partial slip of a Hertz line contact under a growing tangential force Q' per length and a strain that grows with it.
 ///
 /// With `f = |Q'|/μP'`: `c = a √(1 − f)`, `q = μp0 [√(1 − x²/a²) − (c/a) √(1 − (x − e)²/c²)]` along the force, the middle of what
 /// sticks at `e = a E* ε/(2μp0)`, ε the strain of the lower surface less that of the upper one (`σ(1 − ν²)/E` under a tension of the
-/// lower body; `e = aσ/(4μp0)` for bodies of one elasticity). Source: Cattaneo (1938), Mindlin (1949) without strain; Nowell & Hills
-/// (1987), Int. J. Mech. Sci. 29, 355. For uncoupled bodies (β = 0), as long as all that slips slips one way: `|e| + c <= a`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// lower body; `e = aσ/(4μp0)` for bodies of one elasticity). For uncoupled bodies (β = 0), as long as all that slips slips one way: `|e| + c <= a`.
+///
+/// Source: Cattaneo (1938); Mindlin (1949); Nowell & Hills (1987), Int. J. Mech. Sci. 29, 355.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct CattaneoLine {
     /// Tangential force per length Q' [force / length], signed.
@@ -31,6 +35,7 @@ pub struct CattaneoLine {
     pub stick_offset: f64,
 }
 
+#[functions]
 impl CattaneoLine {
     /// Partial slip from the normal contact, the friction coefficient μ [-], the effective modulus E* [pressure], Q' and the
     /// relative strain ε [-].
@@ -72,6 +77,7 @@ impl CattaneoLine {
     }
 
     /// Shear at `x` from the middle [pressure], with the sign of the force; zero outside the contact.
+    #[shown]
     pub fn shear(&self, x: f64) -> f64 {
         let (a, c) = (self.half_width, self.stick_half_width);
         let root = |x: f64, half: f64| ((half - x) * (half + x)).max(0.0).sqrt() / a;
@@ -85,7 +91,7 @@ impl CattaneoLine {
 /// Both edges slip, in opposite senses, and the middle sticks: `E* ε/(2μp0) = (2/π) [K(k) − E(k)]`, `k² = 1 − c²/a²`, for bodies that do
 /// not couple and a strain that grows at a constant normal force. Derived from the condition that the shear has no singularity at
 /// the edges of stick, and held to a dense program.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct StretchedLine {
     /// Half-width a of the contact [length].
@@ -108,6 +114,8 @@ impl StretchedLine {
     }
 }
 
+impl Functions for StretchedLine {}
+
 /// `c/a` with `K(k) − E(k)` given, `k² = 1 − c²/a²`; zero where it is below the smallest number.
 pub(super) fn stick_ratio(difference: f64) -> f64 {
     // K − E falls as the complementary modulus grows
@@ -116,6 +124,46 @@ pub(super) fn stick_ratio(difference: f64) -> f64 {
         difference - (1.0 - c) * (1.0 + c) * integrals.difference
     })
 }
+
+/// `cattaneo_line` in the catalogue.
+pub(super) const PUSHED: Form = Form {
+    name: "cattaneo_line",
+    sentence: "Push a Hertz line contact across its axis, while a strain grows in proportion.",
+    parameters: &[
+        CYLINDER,
+        FRICTION,
+        number(
+            "tangential_force",
+            "Tangential force per length [force/length], at most friction times normal force.",
+        ),
+        STRAIN_OR_NONE,
+    ],
+    solution: Contents::of::<CattaneoLine>(),
+    solve: |given| {
+        solved(given, |[radius, normal, modulus, friction, tangential, strain]| {
+            CattaneoLine::new(
+                &HertzLine::cylinder(radius, normal, modulus)?,
+                friction,
+                modulus,
+                tangential,
+                strain,
+            )
+        })
+    },
+};
+
+/// `stretched_line` in the catalogue.
+pub(super) const STRETCHED: Form = Form {
+    name: "stretched_line",
+    sentence: "Stretch a Hertz line contact without a tangential force: both edges slip, in opposite senses.",
+    parameters: &[CYLINDER, FRICTION, STRAIN],
+    solution: Contents::of::<StretchedLine>(),
+    solve: |given| {
+        solved(given, |[radius, force, modulus, friction, strain]| {
+            StretchedLine::new(&HertzLine::cylinder(radius, force, modulus)?, friction, modulus, strain)
+        })
+    },
+};
 
 #[cfg(test)]
 mod tests {

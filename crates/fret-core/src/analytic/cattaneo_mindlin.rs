@@ -1,17 +1,22 @@
 //! A sphere under constant normal force, pushed sideways for the first time.
 
+use fret_table::{Numbers, functions};
 use serde::Serialize;
 
 use super::error::{AnalyticError, positive};
+use super::form::{Contents, Form, solved};
 use super::hertz::Hertz;
+use super::parameter::{FRICTION, SHEAR_MODULUS, SPHERE, TANGENTIAL_FORCE};
 
 /// Partial slip of a Hertz contact under a growing tangential force T at constant normal force P.
 ///
 /// With `f = |T|/μP`: `c = a (1 − f)^(1/3)`, `q = μ [p(r; a) − p(r; c)]` where `p(r; s) = p0 √(s² − r²)/a`,
-/// `shift = 3μP/(16aG*) · [1 − (1 − f)^(2/3)]`. Source: Cattaneo (1938); Mindlin (1949); Johnson (1985), *Contact Mechanics*, §7.2.
+/// `shift = 3μP/(16aG*) · [1 − (1 − f)^(2/3)]`.
 /// Exact for uncoupled bodies (β = 0) with ν = 0 only: otherwise it neglects the slip across the force, of order `ν/(4 − 2ν)`.
 /// At `|T| = μP` the shift is that at the onset of full slip, the least possible.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+///
+/// Source: Cattaneo (1938); Mindlin (1949); Johnson (1985), *Contact Mechanics*, section 7.2.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct CattaneoMindlin {
     /// Tangential force T [force], signed.
@@ -30,6 +35,7 @@ pub struct CattaneoMindlin {
     pub shift: f64,
 }
 
+#[functions]
 impl CattaneoMindlin {
     /// Partial slip from the normal contact, the friction coefficient μ [-], the effective shear modulus G* [pressure] and T [force].
     ///
@@ -86,11 +92,13 @@ impl CattaneoMindlin {
     }
 
     /// Shift at the onset of full slip, `3μP/(16aG*)` [length].
+    #[shown]
     pub fn full_slip_shift(&self) -> f64 {
         1.5 * self.sliding_force / self.initial_stiffness
     }
 
     /// Shear at distance `r` from the middle [pressure], along the force; zero outside the contact.
+    #[shown]
     pub fn shear(&self, r: f64) -> f64 {
         let (a, c, r) = (self.contact_radius, self.stick_radius, r.abs());
         let shape = if r >= a {
@@ -108,6 +116,7 @@ impl CattaneoMindlin {
     ///
     /// `3μP r²/(32a³G*) · [(1 − (2/π) asin(c/r))(1 − 2c²/r²) + (2/π)(c/r) √(1 − c²/r²)]` for `c <= r <= a`: the shift less the
     /// displacement inside the disc a and outside the disc c, averaged over the direction. Source: Johnson (1985), §7.2.
+    #[shown]
     pub fn slip(&self, r: f64) -> f64 {
         let (a, c, r) = (self.contact_radius, self.stick_radius, r.abs());
         if r <= c || r > a {
@@ -122,6 +131,7 @@ impl CattaneoMindlin {
     /// Energy dissipated by friction since the tangential force was zero [force x length].
     ///
     /// `3(μP)²/(80aG*) · (1 − c/a)³ (1 + 3c/a + c²/a²)`: a quarter of the loss in a cycle of this amplitude.
+    #[shown]
     pub fn dissipated_energy(&self) -> f64 {
         let stick = self.stick_radius / self.contact_radius;
         let shape = self.lost_to_slip(1.0).powi(3) * (1.0 + 3.0 * stick + stick * stick);
@@ -141,6 +151,24 @@ impl CattaneoMindlin {
         1.0_f64.copysign(self.tangential_force)
     }
 }
+
+/// `cattaneo_mindlin` in the catalogue.
+pub(super) const FORM: Form = Form {
+    name: "cattaneo_mindlin",
+    sentence: "Partial slip of a Hertz contact under a first tangential load.",
+    parameters: &[SPHERE, FRICTION, SHEAR_MODULUS, TANGENTIAL_FORCE],
+    solution: Contents::of::<CattaneoMindlin>(),
+    solve: |given| {
+        solved(given, |[radius, normal, modulus, friction, shear_modulus, tangential]| {
+            CattaneoMindlin::new(
+                &Hertz::sphere(radius, normal, modulus)?,
+                friction,
+                shear_modulus,
+                tangential,
+            )
+        })
+    },
+};
 
 #[cfg(test)]
 pub(super) mod tests {

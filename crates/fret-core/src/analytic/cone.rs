@@ -2,15 +2,20 @@
 
 use std::f64::consts::PI;
 
+use fret_table::{Numbers, functions};
 use serde::Serialize;
 
 use super::error::{AnalyticError, positive};
+use super::form::{Contents, Form, solved};
 use super::moduli::effective_modulus;
+use super::parameter::{FORCE, MODULUS, number};
 
 /// Frictionless contact of a cone, gap `r t` with the slope `t` of its side against the surface.
 ///
-/// `P = πa²E*t/2`, `δ = πat/2`, `p = (E*t/2) arcosh(a/r)`. Source: Love (1939); Sneddon (1965), Int. J. Engng Sci. 3, 47. For `t << 1`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// `P = πa²E*t/2`, `δ = πat/2`, `p = (E*t/2) arcosh(a/r)`. For `t << 1`.
+///
+/// Source: Love (1939); Sneddon (1965), Int. J. Engng Sci. 3, 47.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct Cone {
     /// Normal force P [force].
@@ -23,6 +28,7 @@ pub struct Cone {
     pub mean_pressure: f64,
 }
 
+#[functions]
 impl Cone {
     /// Cone of a slope `t` [-] under a normal force.
     ///
@@ -36,10 +42,27 @@ impl Cone {
     }
 
     /// Pressure at distance `r` from the tip [pressure]; infinite (logarithm) at the tip, zero outside the contact.
+    #[shown]
     pub fn pressure(&self, r: f64) -> f64 {
         self.mean_pressure * (self.contact_radius / r.abs()).max(1.0).acosh()
     }
 }
+
+/// `cone` in the catalogue.
+pub(super) const FORM: Form = Form {
+    name: "cone",
+    sentence: "Press a blunt cone, of the `slope` [-] of its side against the surface, on a half-space without friction.",
+    parameters: &[
+        number(
+            "slope",
+            "Slope of the side against the surface [-]: the gap is the slope times the distance from the tip.",
+        ),
+        FORCE,
+        MODULUS,
+    ],
+    solution: Contents::of::<Cone>(),
+    solve: |given| solved(given, |[slope, force, modulus]| Cone::new(slope, force, modulus)),
+};
 
 #[cfg(test)]
 mod tests {

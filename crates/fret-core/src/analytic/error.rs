@@ -1,5 +1,7 @@
 //! Why a closed-form solution was refused, and the checks at its door.
 
+use crate::model::MaterialError;
+
 /// Why a closed-form solution was refused.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum AnalyticError {
@@ -35,6 +37,12 @@ pub enum AnalyticError {
         /// Stick ratio asked for.
         stick_ratio: f64,
     },
+    /// A material that there is not.
+    #[error(transparent)]
+    Material(#[from] MaterialError),
+    /// Another count of numbers than a closed form of the catalogue asks for.
+    #[error("{0} numbers: not as many as the closed form asks for")]
+    NumbersGiven(usize),
 }
 
 /// The value itself when it is positive and finite.

@@ -2,15 +2,20 @@
 
 use std::f64::consts::PI;
 
+use fret_table::{Numbers, functions};
 use serde::Serialize;
 
 use super::error::{AnalyticError, positive};
+use super::form::{Contents, Form, solved};
 use super::moduli::effective_modulus;
+use super::parameter::{FORCE, MODULUS, PUNCH_RADIUS};
 
 /// Frictionless contact of a flat circular punch.
 ///
-/// `P = 2E* a δ`, `p = P / (2πa √(a² − r²))`. Source: Boussinesq (1885); Johnson (1985), *Contact Mechanics*, §3.4.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// `P = 2E* a δ`, `p = P / (2πa √(a² − r²))`.
+///
+/// Source: Boussinesq (1885); Johnson (1985), *Contact Mechanics*, section 3.4.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct FlatPunch {
     /// Normal force P [force].
@@ -21,6 +26,7 @@ pub struct FlatPunch {
     pub approach: f64,
 }
 
+#[functions]
 impl FlatPunch {
     /// Punch of a radius under a normal force.
     ///
@@ -36,11 +42,21 @@ impl FlatPunch {
     }
 
     /// Pressure at distance `r` from the middle [pressure]; infinite at the edge, zero outside.
+    #[shown]
     pub fn pressure(&self, r: f64) -> f64 {
         let a = self.contact_radius;
         if r.abs() > a { 0.0 } else { self.force / (2.0 * PI * a * ((a - r) * (a + r)).sqrt()) }
     }
 }
+
+/// `flat_punch` in the catalogue.
+pub(super) const FORM: Form = Form {
+    name: "flat_punch",
+    sentence: "Press a flat circular punch on a half-space without friction.",
+    parameters: &[PUNCH_RADIUS, FORCE, MODULUS],
+    solution: Contents::of::<FlatPunch>(),
+    solve: |given| solved(given, |[radius, force, modulus]| FlatPunch::new(radius, force, modulus)),
+};
 
 #[cfg(test)]
 mod tests {

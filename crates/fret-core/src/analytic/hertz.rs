@@ -2,23 +2,27 @@
 
 use std::f64::consts::PI;
 
+use fret_table::{Numbers, functions};
 use serde::Serialize;
 
 use super::error::{AnalyticError, positive};
+use super::form::{Contents, Form, solved};
 use super::moduli::effective_modulus;
+use super::parameter::{FORCE, MODULUS, RADIUS};
 
 /// Frictionless contact of spheres (paraboloids `r² / 2R`).
 ///
 /// `a³ = 3PR/(4E*)`, `p0 = 3P/(2πa²)`, `δ = a²/R`, `p = p0 √(1 − r²/a²)`.
-/// Source: Hertz (1881); Johnson (1985), *Contact Mechanics*, §4.2. Holds for `a << R`; exact with friction too when the bodies do
-/// not couple (coupling β = 0).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// Holds for `a << R`; exact with friction too when the bodies do not couple (coupling β = 0).
+///
+/// Source: Hertz (1881); Johnson (1985), *Contact Mechanics*, section 4.2.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct Hertz {
     /// Relative radius R of the spheres, `1/R = 1/R1 + 1/R2` [length].
-    pub sphere_radius: f64,
+    pub radius: f64,
     /// Effective modulus E* [pressure].
-    pub effective_modulus: f64,
+    pub modulus: f64,
     /// Normal force P [force].
     pub force: f64,
     /// Radius a of the contact [length].
@@ -29,6 +33,7 @@ pub struct Hertz {
     pub approach: f64,
 }
 
+#[functions]
 impl Hertz {
     /// Contact under a normal force.
     ///
@@ -56,8 +61,8 @@ impl Hertz {
 
     fn with_contact_radius(a: f64, sphere_radius: f64, modulus: f64) -> Self {
         Self {
-            sphere_radius,
-            effective_modulus: modulus,
+            radius: sphere_radius,
+            modulus,
             force: 4.0 * modulus * a.powi(3) / (3.0 * sphere_radius),
             contact_radius: a,
             max_pressure: 2.0 * modulus * a / (PI * sphere_radius),
@@ -66,11 +71,21 @@ impl Hertz {
     }
 
     /// Pressure at distance `r` from the middle [pressure]; zero outside the contact.
+    #[shown]
     pub fn pressure(&self, r: f64) -> f64 {
         let depth = 1.0 - (r / self.contact_radius).powi(2);
         self.max_pressure * depth.max(0.0).sqrt()
     }
 }
+
+/// `hertz` in the catalogue.
+pub(super) const FORM: Form = Form {
+    name: "hertz",
+    sentence: "Press a sphere on a half-space without friction.",
+    parameters: &[RADIUS, FORCE, MODULUS],
+    solution: Contents::of::<Hertz>(),
+    solve: |given| solved(given, |[radius, force, modulus]| Hertz::sphere(radius, force, modulus)),
+};
 
 #[cfg(test)]
 pub(super) mod tests {

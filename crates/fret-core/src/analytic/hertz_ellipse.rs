@@ -2,18 +2,23 @@
 
 use std::f64::consts::PI;
 
+use fret_table::{Numbers, functions};
 use serde::Serialize;
 
 use super::elliptic_integrals::CompleteElliptic;
 use super::error::{AnalyticError, positive};
+use super::form::{Contents, Form, solved};
 use super::moduli::effective_modulus;
+use super::parameter::{FORCE, MODULUS, number};
 use super::root::root_of_increasing;
 
 /// Frictionless contact of ellipsoids (gap `x² / 2Rx + y² / 2Ry`).
 ///
 /// With `A <= B` the two gap coefficients `1/2R`, a the semi-axis along A and `e² = 1 − b²/a²`: `B/A = [E/(1 − e²) − K]/(K − E)`,
-/// `a³ = 3P(K − E)/(2π E* e² A)`, `p0 = 3P/(2πab)`, `δ = p0 b K/E*`. Source: Hertz (1881); Johnson (1985), *Contact Mechanics*, §4.2.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// `a³ = 3P(K − E)/(2π E* e² A)`, `p0 = 3P/(2πab)`, `δ = p0 b K/E*`.
+///
+/// Source: Hertz (1881); Johnson (1985), *Contact Mechanics*, section 4.2.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct HertzEllipse {
     /// Normal force P [force].
@@ -26,6 +31,7 @@ pub struct HertzEllipse {
     pub approach: f64,
 }
 
+#[functions]
 impl HertzEllipse {
     /// Contact of relative radii of curvature `[Rx, Ry]` [length] under a normal force.
     ///
@@ -50,6 +56,7 @@ impl HertzEllipse {
     }
 
     /// Pressure at a point [pressure]; zero outside the contact.
+    #[shown]
     pub fn pressure(&self, x: f64, y: f64) -> f64 {
         let depth = 1.0 - (x / self.semi_axes[0]).powi(2) - (y / self.semi_axes[1]).powi(2);
         self.max_pressure * depth.max(0.0).sqrt()
@@ -66,6 +73,24 @@ fn axis_ratio(curvature_ratio: f64) -> f64 {
     };
     root_of_increasing(curvature_ratio.ln(), 0.5 * curvature_ratio.ln(), misfit).exp().min(1.0)
 }
+
+/// `hertz_ellipse` in the catalogue.
+pub(super) const FORM: Form = Form {
+    name: "hertz_ellipse",
+    sentence: "Press an ellipsoid on a half-space without friction; relative radii of curvature [length].",
+    parameters: &[
+        number("radius_x", "Relative radius of curvature along x [length]."),
+        number("radius_y", "Relative radius of curvature along y [length]."),
+        FORCE,
+        MODULUS,
+    ],
+    solution: Contents::of::<HertzEllipse>(),
+    solve: |given| {
+        solved(given, |[radius_x, radius_y, force, modulus]| {
+            HertzEllipse::ellipsoid([radius_x, radius_y], force, modulus)
+        })
+    },
+};
 
 #[cfg(test)]
 mod tests {

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_1_PI, PI};
 
+use fret_table::functions;
 use serde::Serialize;
 
 use super::error::{AnalyticError, positive};
@@ -25,6 +26,7 @@ pub struct LineHistory {
     dissipated_energy: f64,
 }
 
+#[functions]
 impl LineHistory {
     /// Contact at rest, from the normal contact, the friction coefficient μ [-] and the compliance D of the pair: `2/E*` for a force across
     /// the axis, the sum of `1/G` of both bodies for one along it [1/pressure].
@@ -138,6 +140,7 @@ impl LineHistory {
     }
 
     /// Shear at `x` from the middle [pressure], along the force; zero outside the contact.
+    #[shown]
     pub fn shear(&self, x: f64) -> f64 {
         let a = self.half_width;
         let root = |half: f64| ((half - x) * (half + x)).max(0.0).sqrt() / a;

@@ -1,5 +1,6 @@
 //! A sphere under constant normal force, pushed to and fro between two equal tangential forces.
 
+use fret_table::functions;
 use serde::Serialize;
 
 use super::cattaneo_mindlin::CattaneoMindlin;
@@ -35,6 +36,7 @@ pub struct LoopPoint {
     half_back: CattaneoMindlin,
 }
 
+#[functions]
 impl MindlinDeresiewicz {
     /// Loop of amplitude T0 [force], from the normal contact, the friction coefficient μ [-] and the shear modulus G* [pressure].
     ///
@@ -93,28 +95,34 @@ impl MindlinDeresiewicz {
     /// Energy dissipated by friction in one cycle [force x length]: the area of the loop.
     ///
     /// `(9/10)(μP)²/(aG*) · {1 − (1 − f)^(5/3) − (5f/6)[1 + (1 − f)^(2/3)]}`, `f = T0/μP`.
+    #[shown]
     pub fn dissipated_energy_per_cycle(&self) -> f64 {
         4.0 * self.peak.dissipated_energy()
     }
 
     /// Energy ratio `W / (4 T0 shift0)` [-]: 0.2 at the onset of full slip, the partial-gross criterion of Fouvry et al. (1995).
+    #[shown]
     pub fn energy_ratio(&self) -> f64 {
         self.dissipated_energy_per_cycle() / (4.0 * self.peak.tangential_force * self.peak.shift)
     }
 }
 
+#[functions]
 impl LoopPoint {
     /// Tangential force T [force].
+    #[shown]
     pub fn tangential_force(&self) -> f64 {
         self.turning.tangential_force + 2.0 * self.half_back.tangential_force
     }
 
     /// Tangential shift of the bodies [length].
+    #[shown]
     pub fn shift(&self) -> f64 {
         self.turning.shift + 2.0 * self.half_back.shift
     }
 
     /// Radius of the disc that has not slipped since the last turning point [length].
+    #[shown]
     pub fn stick_radius(&self) -> f64 {
         if self.half_back.tangential_force == 0.0 {
             self.turning.stick_radius
@@ -124,6 +132,7 @@ impl LoopPoint {
     }
 
     /// Shear at distance `r` from the middle [pressure], along the force; zero outside the contact.
+    #[shown]
     pub fn shear(&self, r: f64) -> f64 {
         self.turning.shear(r) + 2.0 * self.half_back.shear(r)
     }

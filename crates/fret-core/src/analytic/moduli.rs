@@ -1,14 +1,17 @@
 //! Effective moduli of two homogeneous bodies: how compliant they are together.
 
+use fret_table::Numbers;
 use serde::Serialize;
 
 use super::error::{AnalyticError, positive, within};
+use super::form::{Contents, Form, Functions, Solved};
+use super::parameter::{LOWER, UPPER};
 use crate::model::ElasticMaterial;
 
 /// Effective moduli of two homogeneous half-spaces; a rigid body adds no compliance.
 ///
-/// Source: Johnson (1985), *Contact Mechanics*, §4.2, §7.2; Dundurs (1969) for the coupling.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// Source: Johnson (1985), *Contact Mechanics*, sections 4.2 and 7.2; Dundurs (1969) for the coupling.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct EffectiveModuli {
     /// `1/E* = Σ (1 − ν²)/E` [pressure]: normal contact.
@@ -43,6 +46,8 @@ impl EffectiveModuli {
     }
 }
 
+impl Functions for EffectiveModuli {}
+
 /// One body's compliances, each times its shear modulus a function of Poisson's ratio alone.
 #[derive(Clone, Copy, Default)]
 struct Compliances {
@@ -73,6 +78,22 @@ pub(super) fn effective_modulus(value: f64) -> Result<f64, AnalyticError> {
 pub(super) fn coupling(value: f64) -> Result<f64, AnalyticError> {
     within("coupling", value, value.abs() < 1.0, "between -1 and 1")
 }
+
+/// `effective_moduli` in the catalogue.
+pub(super) const FORM: Form = Form {
+    name: "effective_moduli",
+    sentence: r#"Effective moduli of two bodies, each ``{"young": ..., "poisson": ...}``; default: a rigid upper body."#,
+    parameters: &[LOWER, UPPER],
+    solution: Contents::of::<EffectiveModuli>(),
+    solve: |given| match *given {
+        [young, poisson] => Ok(Solved::of(EffectiveModuli::rigid_on(&ElasticMaterial::new(young, poisson)?))),
+        [young, poisson, upper_young, upper_poisson] => {
+            let upper = ElasticMaterial::new(upper_young, upper_poisson)?;
+            Ok(Solved::of(EffectiveModuli::of_pair(&upper, &ElasticMaterial::new(young, poisson)?)))
+        }
+        _ => Err(AnalyticError::NumbersGiven(given.len())),
+    },
+};
 
 #[cfg(test)]
 mod tests {

@@ -2,17 +2,22 @@
 
 use std::f64::consts::PI;
 
+use fret_table::Numbers;
 use serde::Serialize;
 
 use super::error::{AnalyticError, positive};
+use super::form::{Contents, Form, Functions, solved};
 use super::moduli;
+use super::parameter::{COUPLING, FORCE, MODULUS, PUNCH_RADIUS, RADIUS};
 use super::quadrature::integral;
 
 /// Flat circular punch that sticks completely.
 ///
 /// `P = 2E* a δ · ln((1 + β)/(1 − β))/(2β)`; for a rigid punch `β = (1 − 2ν)/(2(1 − ν))` and the factor is
-/// `(1 − ν) ln(3 − 4ν)/(1 − 2ν)`. Source: Mossakovskii (1954), PMM 18, 187; Spence (1968).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// `(1 − ν) ln(3 − 4ν)/(1 − 2ν)`.
+///
+/// Source: Mossakovskii (1954), PMM 18, 187; Spence (1968), Proc. R. Soc. A 305, 55.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct NoSlipPunch {
     /// Normal force P [force].
@@ -28,9 +33,11 @@ pub struct NoSlipPunch {
 /// Sphere that sticks as it touches.
 ///
 /// `δ = κ a²/R`, `κ = 1 / (2 ∫ t cos(θ ln((1 + t)/(1 − t))) dt)` over 0..1, `θ = ln((1 + β)/(1 − β))/(2π)`;
-/// `P = κ · (punch's ratio) · 4E*a³/(3R)`. Source: Mossakovskii (1963); Spence (1968), Proc. R. Soc. A 305, 55.
+/// `P = κ · (punch's ratio) · 4E*a³/(3R)`.
 /// For forces that only grow from zero. Coupling 0 gives the Hertz contact.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+///
+/// Source: Mossakovskii (1963); Spence (1968), Proc. R. Soc. A 305, 55.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct NoSlipSphere {
     /// Normal force P [force].
@@ -63,6 +70,8 @@ impl NoSlipPunch {
     }
 }
 
+impl Functions for NoSlipPunch {}
+
 impl NoSlipSphere {
     /// Sphere of relative radius R under a normal force, on bodies of effective modulus E* [pressure] and Dundurs' coupling β [-].
     ///
@@ -79,6 +88,8 @@ impl NoSlipSphere {
     }
 }
 
+impl Functions for NoSlipSphere {}
+
 /// `ln((1 + β)/(1 − β)) / (2β)` [-].
 fn stiffening(coupling: f64) -> f64 {
     if coupling == 0.0 { 1.0 } else { coupling.atanh() / coupling }
@@ -91,6 +102,30 @@ fn sphere_approach_factor(coupling: f64) -> f64 {
     let integrand = |v: f64| v.tanh() / v.cosh().powi(2) * (2.0 * theta * v).cos();
     0.5 / integral(0.0, beyond_rounding, integrand)
 }
+
+/// `no_slip_punch` in the catalogue.
+pub(super) const PUNCH: Form = Form {
+    name: "no_slip_punch",
+    sentence: "Press a flat circular punch that sticks; `coupling` is Dundurs' beta [-].",
+    parameters: &[PUNCH_RADIUS, FORCE, MODULUS, COUPLING],
+    solution: Contents::of::<NoSlipPunch>(),
+    solve: |given| {
+        solved(given, |[radius, force, modulus, coupling]| NoSlipPunch::new(radius, force, modulus, coupling))
+    },
+};
+
+/// `no_slip_sphere` in the catalogue.
+pub(super) const SPHERE: Form = Form {
+    name: "no_slip_sphere",
+    sentence: "Press a sphere that sticks as it touches; `coupling` is Dundurs' beta [-], 0 gives the Hertz contact.",
+    parameters: &[RADIUS, FORCE, MODULUS, COUPLING],
+    solution: Contents::of::<NoSlipSphere>(),
+    solve: |given| {
+        solved(given, |[radius, force, modulus, coupling]| {
+            NoSlipSphere::new(radius, force, modulus, coupling)
+        })
+    },
+};
 
 #[cfg(test)]
 mod tests {

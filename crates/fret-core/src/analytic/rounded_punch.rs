@@ -2,19 +2,23 @@
 
 use std::f64::consts::PI;
 
+use fret_table::{Numbers, functions};
 use serde::Serialize;
 
 use super::error::{AnalyticError, positive, within};
+use super::form::{Contents, Form, solved};
 use super::moduli::effective_modulus;
+use super::parameter::{FORCE, MODULUS, number};
 use super::quadrature::integral;
 use super::root::root_of_increasing;
 
 /// Frictionless contact of a punch that is flat within `b`, gap `(r - b)² / 2R` beyond.
 ///
 /// With `δ(t) = (t/R) (√(t² − b²) − b arccos(b/t))` the approach is `δ(a)`, the force `2E* ∫ t δ'(t) dt` and the pressure
-/// `(E*/π) ∫ δ'(t) / √(t² − r²) dt` up to `a`. Source: Sneddon (1965), Int. J. Engng Sci. 3, 47, for this gap; the same contact in
-/// Ciavarella (1999), Int. J. Solids Struct. 36, 4149.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// `(E*/π) ∫ δ'(t) / √(t² − r²) dt` up to `a`.
+///
+/// Source: Sneddon (1965), Int. J. Engng Sci. 3, 47; Ciavarella (1999), Int. J. Solids Struct. 36, 4149.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct RoundedPunch {
     /// Normal force [force].
@@ -28,6 +32,7 @@ pub struct RoundedPunch {
     modulus: f64,
 }
 
+#[functions]
 impl RoundedPunch {
     /// Punch of a flat radius `b` and an edge radius `R` under a normal force.
     ///
@@ -56,6 +61,7 @@ impl RoundedPunch {
     }
 
     /// Pressure at distance `r` from the middle [pressure]; zero outside the contact.
+    #[shown]
     pub fn pressure(&self, r: f64) -> f64 {
         let (r, b, a) = (r.abs(), self.flat_radius, self.contact_radius);
         if r >= a {
@@ -80,6 +86,22 @@ fn rate(t: f64) -> f64 {
 fn moment(a: f64) -> f64 {
     integral(1.0, a, |t| t * rate(t))
 }
+
+/// `rounded_punch` in the catalogue.
+pub(super) const FORM: Form = Form {
+    name: "rounded_punch",
+    sentence: "Press a flat punch with a rounded edge on a half-space without friction.",
+    parameters: &[
+        number("flat_radius", "Radius b of the flat part [length]."),
+        number("edge_radius", "Radius R of curvature of the edge [length]."),
+        FORCE,
+        MODULUS,
+    ],
+    solution: Contents::of::<RoundedPunch>(),
+    solve: |given| {
+        solved(given, |[flat, edge, force, modulus]| RoundedPunch::new(flat, edge, force, modulus))
+    },
+};
 
 #[cfg(test)]
 mod tests {

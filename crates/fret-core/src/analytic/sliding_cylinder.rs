@@ -2,16 +2,21 @@
 
 use std::f64::consts::PI;
 
+use fret_table::{Numbers, functions};
 use serde::Serialize;
 
 use super::error::{AnalyticError, positive, within};
+use super::form::{Contents, Form, solved};
 use super::moduli::{coupling, effective_modulus};
+use super::parameter::{COUPLING, LINE_FORCE, MODULUS, RADIUS, number};
 
 /// Line contact of a cylinder in full sliding, with normal-tangential coupling.
 ///
 /// `p = (E*/2R) cos(πγ) (a + x)^(1/2 − γ) (a − x)^(1/2 + γ)`, `tan(πγ) = βμ`, `P' = πa² E* (1 − 4γ²)/(4R)`; the middle of the contact lies `2γa`
-/// behind the cylinder's axis: at `−2γa` with the shear on the lower body along +x. x counts from the middle. Source: Bufler (1959); Johnson (1985), *Contact Mechanics*, §8.2.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// behind the cylinder's axis: at `−2γa` with the shear on the lower body along +x. x counts from the middle.
+///
+/// Source: Bufler (1959); Johnson (1985), *Contact Mechanics*, section 8.2.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct SlidingCylinder {
     /// Force per length P' [force / length].
@@ -29,6 +34,7 @@ pub struct SlidingCylinder {
     scale: f64,
 }
 
+#[functions]
 impl SlidingCylinder {
     /// Contact of relative radius R under a force per length, with the effective modulus E* [pressure], Dundurs' coupling β [-] and
     /// the friction coefficient μ [-], negative for shear along −x.
@@ -62,6 +68,7 @@ impl SlidingCylinder {
     }
 
     /// Pressure at `x` from the middle of the contact [pressure]; zero outside.
+    #[shown]
     pub fn pressure(&self, x: f64) -> f64 {
         let (a, gamma) = (self.half_width, self.exponent);
         if x.abs() >= a {
@@ -70,6 +77,28 @@ impl SlidingCylinder {
         self.scale * (PI * gamma).cos() * (a + x).powf(0.5 - gamma) * (a - x).powf(0.5 + gamma)
     }
 }
+
+/// `sliding_cylinder` in the catalogue.
+pub(super) const FORM: Form = Form {
+    name: "sliding_cylinder",
+    sentence: "Slide a cylinder across its axis on a half-space, with Dundurs' coupling beta [-].",
+    parameters: &[
+        RADIUS,
+        LINE_FORCE,
+        MODULUS,
+        COUPLING,
+        number(
+            "friction_coefficient",
+            "Coefficient of friction [-], negative for shear on the lower body along -x.",
+        ),
+    ],
+    solution: Contents::of::<SlidingCylinder>(),
+    solve: |given| {
+        solved(given, |[radius, force, modulus, coupling, friction]| {
+            SlidingCylinder::new(radius, force, modulus, coupling, friction)
+        })
+    },
+};
 
 #[cfg(test)]
 mod tests {

@@ -1,11 +1,14 @@
 //! A sphere pressed on a half-space that is stretched.
 
+use fret_table::{Numbers, functions};
 use serde::Serialize;
 
 use super::cattaneo_line::stick_ratio;
 use super::error::{AnalyticError, positive, within};
+use super::form::{Contents, Form, Functions, solved};
 use super::hertz::Hertz;
 use super::moduli::effective_modulus;
+use super::parameter::{FRICTION, SHEAR_MODULUS, SPHERE, STRAIN, TANGENTIAL_FORCE};
 
 /// Partial slip of a Hertz contact of bodies with Poisson's ratio 0 under a tangential force T along x and a strain along x that
 /// grows with it.
@@ -13,8 +16,9 @@ use super::moduli::effective_modulus;
 /// With `f = |T|/μP`: `q = μp0 [√(1 − r²/a²) − (c/a) √(1 − ((x − e)² + y²)/c²)]`, `c = a (1 − f)^(1/3)`, `e = a 8 G* ε/(πμp0)`: what sticks is
 /// an offset circle. ε is the strain of the lower surface less that of the upper one; `e = aσ/(πμp0)` under a tension σ of one of two
 /// bodies of one elasticity. Exact for uncoupled bodies with ν = 0, as long as all that slips slips one way: `|e| + c <= a`.
+///
 /// Source: the field of an ellipsoidal shear is uniform in strain; as for the line of Nowell & Hills (1987).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct StretchedSphere {
     /// Tangential force T along x [force], signed.
@@ -31,6 +35,7 @@ pub struct StretchedSphere {
     pub stick_offset: f64,
 }
 
+#[functions]
 impl StretchedSphere {
     /// Partial slip from the normal contact, the friction coefficient μ [-], the effective shear modulus G* [pressure], T and the
     /// relative strain ε along x [-].
@@ -73,6 +78,7 @@ impl StretchedSphere {
     }
 
     /// Shear along x at a point [pressure], with the sign of the force; zero outside the contact.
+    #[shown]
     pub fn shear(&self, x: f64, y: f64) -> f64 {
         let a = self.contact_radius;
         let root = |x: f64, radius: f64| {
@@ -87,9 +93,10 @@ impl StretchedSphere {
 /// A Hertz contact of bodies that do not couple, stretched alike in all directions of the surface against each other.
 ///
 /// A ring slips along the radius and a disc sticks: `E* ε/(μp0) = K(k) − E(k)`, `k² = 1 − c²/a²`, for a strain that grows at a constant
-/// normal force and any Poisson's ratio. Source: the integral equation of Lubkin (1951), J. Appl. Mech. 18, 183, whose torsion
-/// has the same kernel.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// normal force and any Poisson's ratio.
+///
+/// Source: the integral equation of Lubkin (1951), J. Appl. Mech. 18, 183, whose torsion has the same kernel.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct EquibiaxialSphere {
     /// Radius a of the contact [length].
@@ -110,6 +117,40 @@ impl EquibiaxialSphere {
         Ok(Self { contact_radius: hertz.contact_radius, stick_radius: stick * hertz.contact_radius })
     }
 }
+
+impl Functions for EquibiaxialSphere {}
+
+/// `stretched_sphere` in the catalogue.
+pub(super) const ALONG_X: Form = Form {
+    name: "stretched_sphere",
+    sentence: "Push a Hertz contact along x while a strain along x grows in proportion; Poisson's ratio 0.",
+    parameters: &[SPHERE, FRICTION, SHEAR_MODULUS, TANGENTIAL_FORCE, STRAIN],
+    solution: Contents::of::<StretchedSphere>(),
+    solve: |given| {
+        solved(given, |[radius, normal, modulus, friction, shear_modulus, tangential, strain]| {
+            StretchedSphere::new(
+                &Hertz::sphere(radius, normal, modulus)?,
+                friction,
+                shear_modulus,
+                tangential,
+                strain,
+            )
+        })
+    },
+};
+
+/// `equibiaxial_sphere` in the catalogue.
+pub(super) const EQUIBIAXIAL: Form = Form {
+    name: "equibiaxial_sphere",
+    sentence: "Stretch a Hertz contact alike in all directions: ``E* strain/(mu p0) = K(k) - E(k)``, ``k^2 = 1 - c^2/a^2``.",
+    parameters: &[SPHERE, FRICTION, STRAIN],
+    solution: Contents::of::<EquibiaxialSphere>(),
+    solve: |given| {
+        solved(given, |[radius, force, modulus, friction, strain]| {
+            EquibiaxialSphere::new(&Hertz::sphere(radius, force, modulus)?, friction, modulus, strain)
+        })
+    },
+};
 
 #[cfg(test)]
 mod tests {

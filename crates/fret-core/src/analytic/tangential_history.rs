@@ -1,5 +1,6 @@
 //! A sphere under constant normal force and any sequence of tangential forces along one line.
 
+use fret_table::functions;
 use serde::Serialize;
 
 use super::cattaneo_mindlin::CattaneoMindlin;
@@ -21,6 +22,7 @@ pub struct TangentialHistory {
     dissipated_energy: f64,
 }
 
+#[functions]
 impl TangentialHistory {
     /// Contact at rest, from the normal contact, the friction coefficient μ [-] and the effective shear modulus G* [pressure].
     ///
@@ -116,6 +118,7 @@ impl TangentialHistory {
     }
 
     /// Shear at distance `r` from the middle [pressure], along the force; zero outside the contact.
+    #[shown]
     pub fn shear(&self, r: f64) -> f64 {
         self.parts().map(|(weight, part)| weight * part.shear(r)).sum()
     }

@@ -2,11 +2,14 @@
 
 use std::f64::consts::PI;
 
+use fret_table::Numbers;
 use serde::Serialize;
 
 use super::error::{AnalyticError, positive, within};
+use super::form::{Contents, Form, Functions, solved};
+use super::parameter::{LAYER, number};
 use super::quadrature::integral;
-use crate::model::Coating;
+use crate::model::{Coating, ElasticMaterial};
 
 /// Largest a/h that is accepted: the force is then 0.5 % high, the approach 0.5 %.
 const LARGEST_RATIO: f64 = 0.4;
@@ -14,9 +17,10 @@ const LARGEST_RATIO: f64 = 0.4;
 /// Rigid frictionless sphere on a thick layer, expanded in `ε = a/h`.
 ///
 /// `P = 4E*a³/(3R) · (1 − 8α1ε³/3π)`, `δ = a²/R · (1 − 4α0ε/3π − 16α1ε³/5π + 32α0α1ε⁴/9π²)`, where `α0 = ∫ Λ du` and
-/// `α1 = −¼ ∫ Λ u² du` of the layer's response. Source: Vorovich, Aleksandrov & Babeshko (1974); Argatov (2001), in the form
-/// of Li et al. (2020), Proc. `IMechE` J 234, 73. Refused above `a = 0.4h`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// `α1 = −¼ ∫ Λ u² du` of the layer's response. Refused above `a = 0.4h`.
+///
+/// Source: Vorovich, Aleksandrov & Babeshko (1974); Argatov (2001); Li et al. (2020), Proc. `IMechE` J 234, 73.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct ThickLayer {
     /// Normal force P [force].
@@ -51,6 +55,8 @@ impl ThickLayer {
     }
 }
 
+impl Functions for ThickLayer {}
+
 /// `[α0, α1]` of [`ThickLayer`].
 fn response_moments(poisson: f64) -> [f64; 2] {
     let l = 4.0 * poisson - 3.0;
@@ -65,6 +71,23 @@ fn response_moments(poisson: f64) -> [f64; 2] {
         -0.25 * integral(0.0, beyond_rounding, |u| response(u) * u * u),
     ]
 }
+
+/// `thick_layer` in the catalogue.
+pub(super) const FORM: Form = Form {
+    name: "thick_layer",
+    sentence: "Press a rigid sphere on a thick bonded layer until it touches over a disc of `contact_radius`, at most 0.4 h.",
+    parameters: &[
+        number("radius", "Radius of the sphere [length]."),
+        number("contact_radius", "Radius of the contact, at most 0.4 of the thickness [length]."),
+        LAYER,
+    ],
+    solution: Contents::of::<ThickLayer>(),
+    solve: |given| {
+        solved(given, |[radius, a, young, poisson, thickness]| {
+            ThickLayer::sphere(radius, a, &Coating::new(ElasticMaterial::new(young, poisson)?, thickness)?)
+        })
+    },
+};
 
 #[cfg(test)]
 mod tests {

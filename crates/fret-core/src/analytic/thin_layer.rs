@@ -2,10 +2,13 @@
 
 use std::f64::consts::PI;
 
+use fret_table::{Numbers, functions};
 use serde::Serialize;
 
 use super::error::{AnalyticError, positive};
-use crate::model::Coating;
+use super::form::{Contents, Form, solved};
+use super::parameter::{FORCE, LAYER, number};
+use crate::model::{Coating, ElasticMaterial};
 
 /// Rigid frictionless sphere on a thin bonded layer, `a >> h`.
 ///
@@ -13,8 +16,9 @@ use crate::model::Coating;
 /// `P = πEt a⁴/(4Rh)`; the force is 2.5 % low at `a = 20h`, 10 % at `a = 5h` (`ν = 0.3`).
 /// Incompressible (`ν = 0.5`), it is squeezed out sideways: `p = 3G (a² − r²)²/(32Rh³)`, `δ = a²/4R`, `P = πGa⁶/(32Rh³)`; low by a
 /// factor 1.5 at `a = 20h`, 4.3 at `a = 5h`. Neither serves just below 0.5: at `ν = 0.45`, `a = 20h` the springs are 12 % too stiff.
-/// Source: Johnson (1985), *Contact Mechanics*, §5.8; Jaffar (1989); Barber (1990).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+///
+/// Source: Johnson (1985), *Contact Mechanics*, section 5.8; Jaffar (1989); Barber (1990).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct ThinLayer {
     /// Normal force P [force].
@@ -29,6 +33,7 @@ pub struct ThinLayer {
     pub incompressible: bool,
 }
 
+#[functions]
 impl ThinLayer {
     /// Sphere of radius R pressed on the layer by a normal force.
     ///
@@ -53,11 +58,25 @@ impl ThinLayer {
     }
 
     /// Pressure at distance `r` from the middle [pressure]; zero outside the contact.
+    #[shown]
     pub fn pressure(&self, r: f64) -> f64 {
         let depth = (1.0 - (r / self.contact_radius).powi(2)).max(0.0);
         self.max_pressure * if self.incompressible { depth * depth } else { depth }
     }
 }
+
+/// `thin_layer` in the catalogue.
+pub(super) const FORM: Form = Form {
+    name: "thin_layer",
+    sentence: "Press a rigid sphere on a thin bonded layer.",
+    parameters: &[number("radius", "Radius of the sphere [length]."), FORCE, LAYER],
+    solution: Contents::of::<ThinLayer>(),
+    solve: |given| {
+        solved(given, |[radius, force, young, poisson, thickness]| {
+            ThinLayer::sphere(radius, force, &Coating::new(ElasticMaterial::new(young, poisson)?, thickness)?)
+        })
+    },
+};
 
 #[cfg(test)]
 mod tests {

@@ -3,16 +3,20 @@
 
 use std::f64::consts::PI;
 
+use fret_table::{Numbers, functions};
 use serde::Serialize;
 
 use super::error::{AnalyticError, positive, within};
+use super::form::{Contents, Form, solved};
 use super::moduli::effective_modulus;
+use super::parameter::{FORCE, LINE_FORCE, MODULUS, PUNCH_RADIUS, TILT, number};
 
 /// A flat circular punch under a force P and tilted by a slope θ along x, deeper at positive x.
 ///
-/// `M = (4/3) E* a³ θ`, `p = P/(2πa √(a² − r²)) + (2E*θ/π) x/√(a² − r²)`; in full contact while `M <= P a/3`. Source: Johnson (1985),
-/// *Contact Mechanics*, §3.4 and §5.5(c).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// `M = (4/3) E* a³ θ`, `p = P/(2πa √(a² − r²)) + (2E*θ/π) x/√(a² − r²)`; in full contact while `M <= P a/3`.
+///
+/// Source: Johnson (1985), *Contact Mechanics*, sections 3.4 and 5.5(c).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct TiltedPunch {
     /// Normal force P [force].
@@ -30,9 +34,10 @@ pub struct TiltedPunch {
 /// A flat punch of the half-width a and infinite length under a force P' per length and tilted by a slope θ across it, deeper at
 /// positive x.
 ///
-/// `M' = (π/4) E* a² θ`, `p = P'/(π √(a² − x²)) + (E*θ/2) x/√(a² − x²)`; in full contact while `M' <= P' a/2`. Source: Johnson (1985),
-/// *Contact Mechanics*, §2.8.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// `M' = (π/4) E* a² θ`, `p = P'/(π √(a² − x²)) + (E*θ/2) x/√(a² − x²)`; in full contact while `M' <= P' a/2`.
+///
+/// Source: Johnson (1985), *Contact Mechanics*, section 2.8.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct TiltedLinePunch {
     /// Force per length P' [force / length].
@@ -57,6 +62,7 @@ fn full_contact(tilt: f64, limit: f64) -> Result<f64, AnalyticError> {
     Ok(tilt)
 }
 
+#[functions]
 impl TiltedPunch {
     /// Punch of a radius under a force and a slope.
     ///
@@ -70,6 +76,7 @@ impl TiltedPunch {
     }
 
     /// Pressure at a point [pressure]; infinite at the edge, zero outside.
+    #[shown]
     pub fn pressure(&self, x: f64, y: f64) -> f64 {
         let (a, r) = (self.contact_radius, x.hypot(y));
         if r > a {
@@ -80,6 +87,7 @@ impl TiltedPunch {
     }
 }
 
+#[functions]
 impl TiltedLinePunch {
     /// Punch of a half-width under a force per length and a slope.
     ///
@@ -93,6 +101,7 @@ impl TiltedLinePunch {
     }
 
     /// Pressure at `x` from the middle [pressure]; infinite at the edge, zero outside.
+    #[shown]
     pub fn pressure(&self, x: f64) -> f64 {
         let a = self.half_width;
         if x.abs() > a {
@@ -101,6 +110,30 @@ impl TiltedLinePunch {
         (self.line_force / PI + 0.5 * self.modulus * self.tilt * x) / ((a - x) * (a + x)).sqrt()
     }
 }
+
+/// `tilted_punch` in the catalogue.
+pub(super) const OF_DISC: Form = Form {
+    name: "tilted_punch",
+    sentence: "Press a flat circular punch that is tilted by a slope, all of it in contact.",
+    parameters: &[PUNCH_RADIUS, FORCE, MODULUS, TILT],
+    solution: Contents::of::<TiltedPunch>(),
+    solve: |given| {
+        solved(given, |[radius, force, modulus, tilt]| TiltedPunch::new(radius, force, modulus, tilt))
+    },
+};
+
+/// `tilted_line_punch` in the catalogue.
+pub(super) const OF_LINE: Form = Form {
+    name: "tilted_line_punch",
+    sentence: "Press a flat punch of infinite length that is tilted by a slope, all of it in contact.",
+    parameters: &[number("half_width", "Half the width of the punch [length]."), LINE_FORCE, MODULUS, TILT],
+    solution: Contents::of::<TiltedLinePunch>(),
+    solve: |given| {
+        solved(given, |[half_width, force, modulus, tilt]| {
+            TiltedLinePunch::new(half_width, force, modulus, tilt)
+        })
+    },
+};
 
 #[cfg(test)]
 mod tests {

@@ -2,20 +2,25 @@
 
 use std::f64::consts::{FRAC_2_PI, PI};
 
+use fret_table::{Numbers, functions};
 use serde::Serialize;
 
 use super::elliptic_integrals::CompleteElliptic;
 use super::error::{AnalyticError, positive, within};
+use super::form::{Contents, Form, solved};
 use super::hertz::Hertz;
+use super::parameter::{FRICTION, SPHERE, number};
 use super::quadrature::integral;
 use super::root::root_of_increasing;
 
 /// Partial slip of a Hertz contact under a growing twisting moment M at constant normal force.
 ///
 /// With `k² = 1 − c²/a²`: `twist = μp0/(2G) · (K − E)`, `M = (16/3) G twist c³ + 8μp0 ∫ t² (K − E) dt` from c to a, the integrals in it of
-/// modulus² `1 − t²/a²`. Source: Lubkin (1951), J. Appl. Mech. 18, 183; full slip: Hetényi & `McDonald` (1958).
+/// modulus² `1 − t²/a²`. Full slip: Hetényi & `McDonald` (1958).
 /// Exact for any pair of homogeneous bodies: torsion does not couple with pressure.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+///
+/// Source: Lubkin (1951), J. Appl. Mech. 18, 183.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct Torsion {
     /// Twisting moment M [force x length], signed.
@@ -30,6 +35,7 @@ pub struct Torsion {
     pub max_shear: f64,
 }
 
+#[functions]
 impl Torsion {
     /// Contact twisted by a moment; `shear_modulus` is G, `1/G = Σ 1/G` of the bodies.
     ///
@@ -101,6 +107,7 @@ impl Torsion {
     /// Circumferential shear at distance `r` from the middle [pressure], with the sign of M; zero outside the contact.
     ///
     /// `μp` in the rim; `q = (2μp0 r/π) ∫ E dt / (t √(t² − r²))` from c to a where the bodies stick.
+    #[shown]
     pub fn shear(&self, r: f64) -> f64 {
         let (a, c, r) = (self.contact_radius, self.stick_radius, r.abs());
         let shape = if r >= c {
@@ -151,6 +158,24 @@ const BELOW_ONE: f64 = 1.0 - f64::EPSILON;
 fn first_less_second(squared_modulus: f64) -> f64 {
     squared_modulus * CompleteElliptic::complementary((1.0 - squared_modulus).sqrt()).difference
 }
+
+/// `torsion` in the catalogue.
+pub(super) const FORM: Form = Form {
+    name: "torsion",
+    sentence: "Twist a Hertz contact about its normal for the first time; exact for any pair of homogeneous bodies.",
+    parameters: &[
+        SPHERE,
+        FRICTION,
+        number("shear_modulus", "Torsional shear modulus G [pressure]: ``effective_moduli(...).torsional``."),
+        number("moment", "Torsional moment [force x length], less than ``3 pi mu P a / 16``."),
+    ],
+    solution: Contents::of::<Torsion>(),
+    solve: |given| {
+        solved(given, |[radius, force, modulus, friction, shear_modulus, moment]| {
+            Torsion::under_moment(&Hertz::sphere(radius, force, modulus)?, friction, shear_modulus, moment)
+        })
+    },
+};
 
 #[cfg(test)]
 mod tests {

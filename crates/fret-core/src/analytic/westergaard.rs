@@ -2,17 +2,21 @@
 
 use std::f64::consts::PI;
 
+use fret_table::{Numbers, functions};
 use serde::Serialize;
 
 use super::error::{AnalyticError, positive};
+use super::form::{Contents, Form, solved};
 use super::moduli::effective_modulus;
+use super::parameter::{MODULUS, number};
 
 /// Frictionless contact of a wavy surface, gap `D (1 − cos(2πx/L))`, periodic in x and endless in y.
 ///
 /// Full contact at the mean pressure `p* = πE*D/L`; below, `sin²(πa/L) = p̄/p*` and
 /// `p = 2p̄ cos(πx/L)/sin²(πa/L) · √(sin²(πa/L) − sin²(πx/L))`; above, `p = p̄ + p* cos(2πx/L)`.
-/// Source: Westergaard (1939), J. Appl. Mech. 6, 49; Johnson (1985), *Contact Mechanics*, §13.2.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+///
+/// Source: Westergaard (1939), J. Appl. Mech. 6, 49; Johnson (1985), *Contact Mechanics*, section 13.2.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Numbers)]
 #[non_exhaustive]
 pub struct Westergaard {
     /// Wavelength L [length].
@@ -25,6 +29,7 @@ pub struct Westergaard {
     pub half_width: f64,
 }
 
+#[functions]
 impl Westergaard {
     /// Wave of amplitude D and wavelength L [length] under a mean pressure.
     ///
@@ -55,6 +60,7 @@ impl Westergaard {
     }
 
     /// Pressure at `x` from a crest [pressure]; zero where the surfaces are apart.
+    #[shown]
     pub fn pressure(&self, x: f64) -> f64 {
         let phase = PI * x / self.wavelength;
         if self.is_full() {
@@ -65,6 +71,24 @@ impl Westergaard {
         2.0 * self.full_contact_pressure * phase.cos().abs() * depth.sqrt()
     }
 }
+
+/// `westergaard` in the catalogue.
+pub(super) const FORM: Form = Form {
+    name: "westergaard",
+    sentence: "Press a sinusoidal surface on a flat half-space without friction.",
+    parameters: &[
+        number("amplitude", "Amplitude of the wave, half its height [length]."),
+        number("wavelength", "Wavelength [length]."),
+        number("mean_pressure", "Mean pressure over a wavelength [pressure]."),
+        MODULUS,
+    ],
+    solution: Contents::of::<Westergaard>(),
+    solve: |given| {
+        solved(given, |[amplitude, wavelength, mean, modulus]| {
+            Westergaard::new(amplitude, wavelength, mean, modulus)
+        })
+    },
+};
 
 #[cfg(test)]
 mod tests {

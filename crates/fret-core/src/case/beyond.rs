@@ -10,7 +10,7 @@ pub(super) fn beyond(judge: &mut Judge, grid: &GridFile, size: Option<GridSize>)
     let Some(given) = grid.beyond.as_ref().filter(|given| !given.value.is_body()) else {
         return Beyond::Body;
     };
-    if grid.periodic.as_ref().is_some_and(|periodic| periodic.value) {
+    if grid.is_periodic() {
         judge.refuse::<()>(
             given.span(),
             "grid.beyond = \"no body\" in a periodic case: the surfaces repeat, and end nowhere",

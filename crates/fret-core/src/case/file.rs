@@ -124,6 +124,13 @@ pub(super) struct GridFile {
     pub periodic: Option<At<bool>>,
 }
 
+impl GridFile {
+    /// Whether the scene repeats.
+    pub fn is_periodic(&self) -> bool {
+        self.periodic.as_deref().is_some_and(|periodic| *periodic)
+    }
+}
+
 /// Numbers of cells: of a grid, or of a line contact.
 #[derive(Debug, Clone, Copy, Table, JsonSchema)]
 #[expected("numbers of cells [x, y], or one number for a line contact")]

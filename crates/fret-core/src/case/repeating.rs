@@ -27,7 +27,7 @@ pub(super) fn repeats(
     profile: Option<&Profile>,
     bodies: Option<&ContactPair>,
 ) -> bool {
-    let periodic = grid.periodic.as_ref().is_some_and(|periodic| periodic.value);
+    let periodic = grid.is_periodic();
     if !periodic {
         if let Some(profile) = profile {
             endless(judge, grid, profile);

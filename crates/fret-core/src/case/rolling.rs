@@ -36,7 +36,7 @@ pub(super) fn rolling(
             help,
         );
     }
-    if file.grid.periodic.as_ref().is_some_and(|periodic| periodic.value) {
+    if file.grid.is_periodic() {
         roll.refuse(
             judge,
             loading,

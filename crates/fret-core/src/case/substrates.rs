@@ -22,7 +22,7 @@ pub(super) fn bulk_and_tilt(
     bodies: Option<&ContactPair>,
     size: Option<GridSize>,
 ) {
-    let periodic = grid.periodic.as_ref().is_some_and(|periodic| periodic.value);
+    let periodic = grid.is_periodic();
     for (index, file) in stages.iter().enumerate() {
         let file = &file.value;
         let checked = checked.and_then(|checked| checked.get(index));

@@ -2,16 +2,18 @@
 //! from.
 
 mod columns;
+pub mod concern;
 mod cycle;
 mod cycle_columns;
 mod field_names;
 mod footprint;
 mod records;
 mod start;
-pub mod warning;
+mod warning;
 
 pub use crate::solver::{Regime, Residual, Work};
 pub use columns::{Column, STEP_COLUMNS, Value};
+pub use concern::{Concern, RING_CELLS, RING_FRACTION, RING_SHEAR, STIFFEST};
 pub use cycle::{CycleRecord, CycleRegime, Drive, RunningCondition, SLIDING_ENERGY_RATIO, running_condition};
 pub use cycle_columns::CYCLE_COLUMNS;
 pub use field_names::{FIELDS, Field, FieldValues, ZONE_WORDS};
@@ -22,4 +24,4 @@ pub use records::{
 };
 pub use start::Start;
 pub(crate) use start::{setting, way_of_solving};
-pub use warning::{Concern, RING_CELLS, RING_FRACTION, RING_SHEAR, STIFFEST, Warning};
+pub use warning::Warning;

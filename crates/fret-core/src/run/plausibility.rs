@@ -249,7 +249,7 @@ impl Gauge {
         let rough = !plan.case.profile.heights.is_empty();
         let mut found = Vec::new();
         let mut look = |name: Concern, values: &mut dyn Iterator<Item = (f64, usize)>| {
-            let worse = |a: f64, b: f64| if name.warns_below() { a < b } else { a > b };
+            let worse = |a: f64, b: f64| if name.row().warns_below { a < b } else { a > b };
             let worst = values.reduce(|most, next| if worse(next.0, most.0) { next } else { most });
             found.extend(worst.and_then(|(value, at)| Warning::of(name, value, stage(at))));
         };

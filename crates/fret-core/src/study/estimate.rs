@@ -10,7 +10,7 @@ use super::quantities::{Quantity, StageQuantities};
 use super::resolutions::{ResolutionError, only_one_grid};
 use super::unbounded::pressure_is_unbounded;
 use super::variation::{Variation, fewest};
-use crate::history::warning::CELLS_IN_RADIUS;
+use crate::history::concern::CELLS_IN_RADIUS;
 use crate::model::{Dimension, Integration, Shape};
 use crate::plan::{Coupling, Plan};
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::variation::{Variation, fewest, rows};
 use crate::case::check::{FEWEST_CELLS as FEWEST_OF_A_CASE, MOST_CELLS, MOST_CELLS_IN_ALL};
-use crate::history::warning::CELLS_IN_RADIUS;
+use crate::history::concern::CELLS_IN_RADIUS;
 use crate::plan::{Coupling, Plan};
 
 /// Fewest cells per side of a level that was not given.

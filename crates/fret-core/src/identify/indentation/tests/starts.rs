@@ -1,9 +1,8 @@
 //! Starts far away from what is found.
 
 use super::super::IndentationRequest;
-use super::{
-    Load, Model, Test, YOUNG, film, flat, found, hertz, homogeneous, of_film, refusal_of, sneddon, sphere,
-};
+use super::films::{THICKNESS, YOUNG, film, of_film};
+use super::{Load, Model, Test, flat, found, hertz, homogeneous, refusal_of, sneddon, sphere};
 
 /// Ten and a hundred times too soft and too stiff, three times, of a sphere, a cone and a punch in closed form, with 0.2 % of noise: the modulus to
 /// 1.5 %, the error of 32 cells, the same from each of them to a hundredth of that.
@@ -42,7 +41,7 @@ fn a_film_is_found_from_ten_times_too_soft_or_too_stiff() {
     let load = of_film(deepest);
     let log = Test { deepest, load: &load, frame: 0.0 }.log([0.002; 2], 1);
     let grid = film(32);
-    let case = |values: &[f64]| grid(&[values[0], super::THICKNESS.1]);
+    let case = |values: &[f64]| grid(&[values[0], THICKNESS.1]);
     for factor in [0.1, 1.0, 3.0, 10.0] {
         let start = [(YOUNG.0, factor * YOUNG.1)];
         let found = found(&case, &start, &log, &IndentationRequest::default()).unwrap();
