@@ -89,9 +89,38 @@ impl Motion {
     }
 }
 
+/// Cells along an axis that a step in a direction goes at the most.
+pub const MOST_CELLS: usize = 3;
+/// So much of a cell is rounding of lengths.
+const ROUNDING: f64 = 1e-6;
+
+/// Cells along each axis of the shortest step that goes by whole ones in a direction, on cells of a spacing; `None` where none is short.
+pub fn step_towards(direction: [f64; 2], spacing: [f64; 2]) -> Option<[isize; 2]> {
+    let cells = [0, 1].map(|axis| direction[axis] / spacing[axis]);
+    let most = cells[0].abs().max(cells[1].abs());
+    let is_whole = |step: &[f64; 2]| step.iter().all(|cells| (cells - cells.round()).abs() < ROUNDING);
+    let step = (1..=MOST_CELLS).map(|all| cells.map(|cells| cells / most * all as f64)).find(is_whole)?;
+    Some(step.map(|cells| cells.round() as isize))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn steps_go_by_whole_cells() {
+        for (direction, spacing, step) in [
+            ([1.0, 0.0], [0.1, 0.3], Some([1, 0])),
+            ([0.0, -7.0], [0.1, 0.3], Some([0, -1])),
+            ([-1.0, 1.0], [0.1, 0.1], Some([-1, 1])),
+            ([1.0, 1.0], [0.1, 0.3], Some([3, 1])),
+            ([0.2, 0.3], [0.1, 0.1], Some([2, 3])),
+            ([1.0, 0.25], [0.1, 0.1], None),
+            ([1.0, 1e-3], [0.1, 0.1], None),
+        ] {
+            assert_eq!(step_towards(direction, spacing), step, "{direction:?} {spacing:?}");
+        }
+    }
 
     #[test]
     fn positions_are_hundredths_of_a_cell() {

@@ -15,6 +15,7 @@ use super::recording::{kept, record, tell_rates, whole};
 use super::records::Records;
 use super::refinement::{DivisionError, Refinement, Span, in_halves};
 use super::run_error::{RunError, run_error, too_thin};
+use super::steady::Onward;
 use super::stepping::StageSteps;
 use super::stiffest_wave::StiffestWave;
 use super::surfaces::{Block, Surfaces};
@@ -249,13 +250,15 @@ impl<'a> Journey<'a> {
             observer.iterated(&Iteration { increment, stage, iteration, residual, tolerance })
         };
         let state = &self.state;
-        let rates = case.stages[stage].rates();
         let mut held = *to;
         let (solved, parts) = match refinement {
             _ if case.stages[stage].steady => {
                 let (end, cells);
+                let at_work = &case.stages[stage];
+                let (rates, direction) = (at_work.rates(), at_work.roll_direction);
+                let onward = Onward { wanted: to, rates, direction };
                 (end, held, cells) =
-                    self.solver.roll_until_steady(state, (to, rates), &mut watch).map_err(failed)?;
+                    self.solver.roll_until_steady(state, onward, &mut watch).map_err(failed)?;
                 (end, cells)
             }
             None => {

@@ -7,6 +7,7 @@ use ndarray::Array2;
 
 use super::pair_compliance::PairCompliance;
 use super::rolling::Rolling;
+use super::steady::Onward;
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance};
 use crate::fields::{Outside, carried};
 use crate::model::{
@@ -225,20 +226,20 @@ impl<'a> Stepper<'a> {
         self.moving.as_mut().map_or(Ok(()), |moving| moving.set_bodies(plan, bodies))
     }
 
-    /// Rolls along x until nothing changes any more, see [`Rolling::until_steady`].
+    /// Rolls on until nothing changes any more, see [`Rolling::until_steady`].
     ///
     /// # Errors
     /// As there.
     pub fn roll_until_steady(
         &mut self,
         state: &ContactState,
-        wanted: (&LoadStep, [Option<f64>; 3]),
+        onward: Onward<'_>,
         watch: IterationCallback<'_>,
     ) -> Result<(Increment, LoadStep, usize), SolveError> {
         let Self { solver, rolling, .. } = self;
         match rolling {
-            Some(rolling) => rolling.until_steady(solver, state, wanted, watch),
-            None => solver.step(state, wanted.0, watch).map(|end| (end, *wanted.0, 1)),
+            Some(rolling) => rolling.until_steady(solver, state, onward, watch),
+            None => solver.step(state, onward.wanted, watch).map(|end| (end, *onward.wanted, 1)),
         }
     }
 
