@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::control_keys::{BothOrOne, Given, LARGEST};
 use super::file::CaseFile;
 use super::judge::Judge;
-use super::misfits::{Loading, Misfit};
+use super::misfits::{Loading, Misfit, twist_by_moment};
 use super::stage_file::{IncrementsFile, StageFile};
 use crate::document::At;
 use crate::model::controls::{BULK_STRESS, FREEDOMS, Kind, ROLL, TANGENTIAL, TILT};
@@ -63,17 +63,8 @@ pub(super) fn rolling(
 
 /// Refuses controls that have no place beside a roll.
 fn beside(judge: &mut Judge, loading: Loading<'_>, kinematics: Kinematics) {
-    let (files, stages) = loading;
-    for (index, file) in files.iter().enumerate() {
-        // 0, too: the moment would be one about the middle of the grid.
-        let by_key = file.value.controls.of("twist_moment").map(Given::span);
-        let twist = stages.and_then(|stages| stages.get(index)).and_then(|stage| stage.twist.as_ref());
-        let by_table = file.value.table.as_ref().filter(|_| matches!(twist, Some(StageControl::Force(_))));
-        if let Some(span) = by_key.or(by_table.map(At::span)) {
-            let help = "spin, or no twist_moment: the upper body then does not turn";
-            judge.refuse::<()>(span, "twist_moment of a contact that rolls: its spin is prescribed", help);
-        }
-    }
+    let why = "twist_moment of a contact that rolls: its spin is prescribed";
+    twist_by_moment(judge, loading, (why, "spin, or no twist_moment: the upper body then does not turn"));
     if kinematics.frame == Frame::Bodies {
         let tilt = Misfit { freedoms: TILT..BULK_STRESS, motions: false, in_table: "a tilt" };
         let why = "of a contact that rolls, with kinematics.frame = \"bodies\": a tilt is about the middle of the grid, and the contact leaves it";
