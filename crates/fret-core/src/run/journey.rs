@@ -6,6 +6,7 @@ use std::time::Instant;
 use ndarray::Array2;
 
 use super::checkpoint::{Place, Waypoint, solved_state};
+use super::debris::give;
 use super::fretting_loop::{CycleEnd, FrettingLoop, slid};
 use super::moving::{Stepper, upper_wear_over_grid};
 use super::observer::{Iteration, Observer};
@@ -379,6 +380,7 @@ impl<'a> Journey<'a> {
             RunError::WearTooFast { increment, stage: stage.name.clone(), share: too_fast.share }
         })?;
         if let (true, Some(wearing)) = (block.opened, &self.surfaces.wearing) {
+            self.solver.solver.set_give(give(self.plan.case.wear.as_ref(), &self.state));
             self.solver.open_gap(|| wearing.gap(&self.state));
         }
         if block.opened && block.through.is_none() {
