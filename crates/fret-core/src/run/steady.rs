@@ -17,12 +17,14 @@ const OF_CONTACT: usize = 8;
 /// Last states of which means are taken.
 const STATES: usize = 4;
 /// What is left of a transient, in the shear by the shear, below which it is steady; so many times the bound on the residuals where that is more.
-/// In longer strides than one step a rougher one.
+/// In longer strides than one step a rougher one for each: what they are off the steady state themselves is more.
 const STEADY: f64 = 1e-5;
 const OF_TOLERANCE: f64 = 100.0;
-const ROUGHLY: f64 = 3e-3;
-/// Bound on the residuals of increments from which others follow before the end.
+const ROUGHLY: f64 = 0.01;
+/// Bound on the residuals of increments from which others follow: before the last lengths, and in these over the bound on what is left of a transient.
+/// The one increment that is told, from there on, keeps to the tolerance. Rougher last lengths spoil the means, and take more of them.
 const ON_THE_WAY: f64 = 1e-4;
+const OF_STEADY: f64 = 0.1;
 /// A length of the contact leaves at least and at the most so much of a transient.
 const LEAVES: [f64; 2] = [0.05, 0.95];
 /// Lengths of the contact, at the most: in strides, and step by step.
@@ -49,8 +51,9 @@ pub struct Onward<'a> {
 }
 
 impl Rolling {
-    /// Rolls on from a state until nothing changes any more: the end of the last increment, which goes on by one step of whole cells, what is prescribed there, and the number of increments made. All
-    /// motions and energies are those of that one increment; what is stored on the way counts as work.
+    /// Rolls on from a state until nothing changes any more: the end of the last increment, which goes on by one step of whole cells, what is
+    /// prescribed there, and the number of increments made. All motions and energies are those of that one increment; what is stored on the way
+    /// counts as work.
     ///
     /// # Errors
     /// As [`Rolling::step`]; that it does not converge, when it does not become steady.
@@ -96,21 +99,19 @@ impl Rolling {
         let mut stride = (length / OF_CONTACT).max(1);
         loop {
             let is_last = stride == 1;
-            let (enough, most) = if is_last { (bound, MOST) } else { (ROUGHLY, MOST_IN_STRIDES) };
+            let (enough, most) =
+                if is_last { (bound, MOST) } else { (ROUGHLY * stride as f64, MOST_IN_STRIDES) };
             let mut trials: Vec<Trial> = Vec::new();
             let mut off_before = f64::INFINITY;
             'lengths: for number in 0..most {
                 let is_rough = !is_last || number == 0;
-                solver.set_tolerance(if is_rough { tolerance.max(ON_THE_WAY) } else { tolerance });
+                let residual = if is_rough { ON_THE_WAY } else { OF_STEADY * bound };
+                solver.set_tolerance(tolerance.max(residual));
                 let from = numbers(&state, friction);
-                let mut last = None;
                 for _ in 0..length.div_ceil(stride) {
                     let memory = solver.memory().clone();
                     match advance(solver, &state, stride) {
-                        Ok((mut solved, load)) => {
-                            std::mem::swap(&mut state, &mut solved.state);
-                            last = Some((solved, load));
-                        }
+                        Ok((solved, _)) => state = solved.state,
                         Err(SolveError::NotConverged { .. }) if !is_last => {
                             solver.restore_memory(memory);
                             break 'lengths;
@@ -135,13 +136,14 @@ impl Rolling {
                 let left = if is_last { off * leaves / (1.0 - leaves) } else { off };
                 off_before = off;
                 if left <= enough && !(is_last && is_rough) {
-                    if let (true, Some((mut solved, load))) = (is_last, last) {
-                        let before = std::mem::replace(&mut solved.state, state);
-                        let end = Increment { work: work.get(), ..solved };
-                        let (end, load) = of_one_increment(solver, (start, &before), end, load);
-                        return Ok((end, load, made.get()));
+                    if !is_last {
+                        break;
                     }
-                    break;
+                    solver.set_tolerance(tolerance);
+                    let (solved, load) = advance(solver, &state, 1)?;
+                    let end = Increment { work: work.get(), ..solved };
+                    let (end, load) = of_one_increment(solver, (start, &state), end, load);
+                    return Ok((end, load, made.get()));
                 }
                 trials.push(Trial { end: state.clone(), memory: solver.memory().clone(), change });
                 if trials.len() > STATES {
