@@ -482,12 +482,14 @@ fn rolled_on(
 /// The largest difference of forces, moment, rolling friction and creepages, each over the size of its kind.
 fn apart(one: [f64; 7], other: [f64; 7]) -> f64 {
     let size = |places: &[usize]| places.iter().map(|place| one[*place].abs()).fold(0.0, f64::max);
-    let scales = [size(&[0, 1]), size(&[0, 1]), size(&[2]), size(&[3]), size(&[4, 5]), size(&[4, 5]), size(&[6])];
+    let scales =
+        [size(&[0, 1]), size(&[0, 1]), size(&[2]), size(&[3]), size(&[4, 5]), size(&[4, 5]), size(&[6])];
     (0..7).map(|place| (one[place] - other[place]).abs() / scales[place].max(1e-12)).fold(0.0, f64::max)
 }
 
 /// A steady state rolled to along y is that along x with the axes exchanged: so are profile, cells and creepage, and what turns, turns the other way.
-/// Rolled against x it is the mirror image. The search does the same in all of them, so that they differ by the residuals.
+/// Rolled against x it is the mirror image. The search does the same in all of them, so that they differ by rounding alone, or,
+/// where that turns an iteration, by the residuals.
 #[test]
 fn steady_states_along_all_axes_are_one_problem() {
     let (radii, cells) = ([100.0, 60.0], [46.0, 40.0]);
@@ -497,8 +499,7 @@ fn steady_states_along_all_axes_are_one_problem() {
         let along = rolled_on([radii, cells], ([1.0, 0.0], creepage, spin), driven);
         let [qx, qy, m, friction, x, y, turned] = along;
         let back = driven.map(|[x, y]| [-x, y]);
-        let mirrored =
-            rolled_on([radii, cells], ([-2.0, 0.0], [-creepage[0], creepage[1]], -spin), back);
+        let mirrored = rolled_on([radii, cells], ([-2.0, 0.0], [-creepage[0], creepage[1]], -spin), back);
         let across = rolled_on(
             [exchanged(radii), exchanged(cells)],
             ([0.0, 3.0], exchanged(creepage), -spin),
@@ -515,8 +516,8 @@ fn steady_states_along_all_axes_are_one_problem() {
             apart([qy, qx, -m, friction, y, x, -turned], across),
             apart([qy, -qx, m, friction, y, -x, turned], against),
         ];
-        println!("steady, {driven:?}: {along:.6?}; against x, along y, against y off by {off:.1e?}");
-        assert!(off.iter().all(|off| *off < 1e-6), "{off:e?}");
+        println!("steady, {driven:?}: {along:.6?}; against x, along y, against y off by {off:?}");
+        assert!(off.iter().all(|off| *off < 1e-8), "{off:?}");
     }
 }
 
@@ -535,7 +536,7 @@ fn a_ball_rolls_on_alike_in_all_directions() {
     for direction in [[1.0, 1.0], [-1.0, 2.0]] {
         let found = rolled(direction);
         let off = [0, 1, 2, 3].map(|place| found[place] / along[place] - 1.0);
-        println!("a ball along {direction:?}: {found:.6?}, along x {along:.6?}, off by {off:.1e?}");
+        println!("a ball along {direction:?}: {found:.6?}, along x {along:.6?}, off by {off:?}");
         assert!(off.iter().all(|off| off.abs() < 0.02), "{off:?}");
     }
 }
@@ -573,7 +574,8 @@ fn a_steady_point_of_a_coated_ball_is_found_soon() {
         "steady point: {:?} after {} increments, {} convolutions, {:.3} s",
         last.tangential_force, last.parts, last.work.convolutions, last.wall_s
     );
-    assert!(last.work.convolutions < 4000, "{}", last.work.convolutions);
+    // 2704 were counted, 46 cells over the contact.
+    assert!(last.work.convolutions < 3000, "{}", last.work.convolutions);
     let [creepage, spin] = [last.creepage.unwrap()[1], last.spin.unwrap()];
     assert!((creepage / 5e-4 - 1.0).abs() < 1e-9 && (spin / 1e-3 - 1.0).abs() < 1e-9);
 }

@@ -37,7 +37,7 @@ fn turned_by_a_right_angle_it_is_the_scene_with_axes_exchanged() {
         let rows: Vec<Vec<f64>> = friction.rows().into_iter().map(|row| row.to_vec()).collect();
         format!(
             "[grid]\ncells = [{CELLS}, {CELLS}]\nsize = [2.0, 2.0]\n[upper]\nrigid = true\n[upper.profile.heights]\nvalues = {{ array = 0 }}\n\
-             [lower]\nsubstrate = {{ young = 1.0, poisson = 0.2 }}\n[friction]\ncoefficient = {rows:?}\n{moves_with}\n[solver]\ntolerance = 1e-9\n\
+             [lower]\nsubstrate = {{ young = 1.0, poisson = 0.2 }}\n[friction]\nmap = {rows:?}\n{moves_with}\n[solver]\ntolerance = 1e-9\n\
              [output]\nevery = 1\n{kinematics}[[load]]\nnormal_force = 0.0\n{first}\nincrements = 1\n\
              [[load]]\nnormal_force = 3e-3\nincrements = 3\n[[load]]\nshift = [1e-4, 5e-5]\nincrements = 2\n"
         )
@@ -83,22 +83,25 @@ fn a_shape_turns_to_any_angle() {
     let off = largest(&(&turned.state.pressure - &written.state.pressure)) / largest(&written.state.pressure);
     // the rounding of a formula, and residuals of 1e-10
     assert!(off < 1e-7, "{off:e}");
-    assert!((turned.steps.last().unwrap().approach / written.steps.last().unwrap().approach - 1.0).abs() < 1e-8);
+    assert!(
+        (turned.steps.last().unwrap().approach / written.steps.last().unwrap().approach - 1.0).abs() < 1e-8
+    );
 }
 
 /// A rigid ball that wears, on a flat that does: it is brought to a place, pressed there and turned.
 fn turned_ball(shift: f64, kinematics: &str, wear: &str) -> History {
-    let [lower, upper] = if wear.is_empty() { ["", ""] } else { [", wear_coefficient = 0.02", "wear_coefficient = 0.01\n"] };
+    let [lower, upper] =
+        if wear.is_empty() { ["", ""] } else { [", wear_coefficient = 0.02", "wear_coefficient = 0.01\n"] };
     solved(&format!(
         "[grid]\ncells = [64, 64]\nsize = [3.2, 3.2]\n[upper]\nrigid = true\n{upper}[upper.profile.sphere]\nradius = 100.0\n[lower]\n\
          substrate = {{ young = 0.91, poisson = 0.3{lower} }}\n[friction]\ncoefficient = 0.3\n[solver]\ntolerance = 1e-9\n{kinematics}{wear}\
-         [output]\nevery = 1\n[[load]]\nnormal_force = 0.0\nshift = [{shift:?}, 0.0]\nincrements = 1\n\
+         [output]\nfields = [\"pressure\", \"worn_depth\"]\n[[load]]\nnormal_force = 0.0\nshift = [{shift:?}, 0.0]\nincrements = 1\n\
          [[load]]\nnormal_force = 8e-3\nincrements = 3\n[[load]]\ntwist = 0.4\nincrements = 20\n"
     ))
 }
 
-/// A ball turns within itself: nothing moves but what small displacement lets move, up to arcs of 0.02 rad, whose ends lie half of that nearer in. Turned
-/// about its own middle at another place it does there the same; nothing pulls it.
+/// A rigid ball turns within itself: nothing moves but what small displacement lets move. Turned about its own middle at another place it does there the
+/// same; nothing pulls it.
 #[test]
 fn a_body_of_revolution_turns_within_itself() {
     let small = turned_ball(0.0, "", "");
@@ -115,10 +118,10 @@ fn a_body_of_revolution_turns_within_itself() {
     );
     assert!((one.twist_moment / torque - 1.0).abs() < 5e-3);
     let pressures = [&small, &finite].map(|history| &history.state.pressure);
-    // coupled: shear changes the pressure, and its direction by half of an increment's angle
     let off = largest(&(pressures[0] - pressures[1])) / largest(pressures[0]);
-    assert!(off < 1e-3, "{off:e}");
-    assert!((other.twist_moment / one.twist_moment - 1.0).abs() < 2e-4);
+    // residuals of 1e-9 of each
+    assert!(off < 1e-7, "{off:e}");
+    assert!((other.twist_moment / one.twist_moment - 1.0).abs() < 1e-7);
     assert!((there.twist_moment / other.twist_moment - 1.0).abs() < 1e-6);
     for (step, moved) in finite.steps.iter().zip(&away.steps) {
         assert!((step.approach / moved.approach - 1.0).abs() < 1e-6 || step.approach == moved.approach);
@@ -140,17 +143,27 @@ fn bodies_that_turn_wear_and_nothing_is_lost() {
         let [lower, upper] = history.fields.last().unwrap().own_worn_depth.clone().unwrap();
         let area = history.grid.cell_area();
         let volumes = [lower.sum() * area, upper.sum() * area];
-        println!("turned at {shift}: energy {energy:.6e}, worn {volumes:.6e?}");
+        println!("turned at {shift}: energy {energy:.6e}, worn {volumes:?}");
         for (volume, coefficient) in volumes.into_iter().zip([0.02, 0.01]) {
             // three passes over 64 cells for each increment
-            assert!((volume / (coefficient * energy) - 1.0).abs() < 1e-11, "{volume:e} {coefficient} {energy:e}");
+            assert!(
+                (volume / (coefficient * energy) - 1.0).abs() < 1e-11,
+                "{volume:e} {coefficient} {energy:e}"
+            );
         }
         assert!(upper.iter().all(|depth| *depth >= -1e-12 * largest(&upper)));
         if shift == 0.0 {
-            let off = largest(&(&lower * 0.5 - &upper)) / largest(&upper);
-            println!("scar of the ball against that of the flat: off by {off:.1e}");
-            // carried by parts of a cell, of second order, and of first where the pressure ends
-            assert!(off < 0.03, "{off:e}");
+            let off = &lower * 0.5 - &upper;
+            let in_all = off.iter().map(|off| off.abs()).sum::<f64>() / upper.sum();
+            let radius = |(i, j): (usize, usize)| history.grid.centre(0, i).hypot(history.grid.centre(1, j));
+            // five cells from the edge, where the depth ends with a vertical slope
+            let inside = off.indexed_iter().filter(|(cell, _)| radius(*cell) < 0.6).map(|(_, off)| off.abs());
+            let inside = inside.fold(0.0, f64::max) / largest(&upper);
+            println!(
+                "scar of the ball against that of the flat: {in_all:.1e} off in all, {inside:.1e} inside"
+            );
+            // carried by parts of cells of a seventeenth of the radius: of second order inside, of first at the edge
+            assert!(in_all < 0.05 && inside < 0.03, "{in_all:e} {inside:e}");
         }
     }
 }

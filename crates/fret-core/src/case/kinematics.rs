@@ -45,7 +45,11 @@ pub(super) fn kinematics(judge: &mut Judge, concerned: &Concerned<'_>) -> Kinema
         return kinematics;
     }
     let why = format!("twist_moment with {FINITE}: surfaces are turned by a twist that is prescribed");
-    twist_by_moment(judge, *loading, (&why, "twist, the angle; or no twist_moment: the upper body then does not turn"));
+    twist_by_moment(
+        judge,
+        *loading,
+        (&why, "twist, the angle; or no twist_moment: the upper body then does not turn"),
+    );
     let beyond = file.grid.beyond.as_ref().filter(|beyond| !beyond.value.is_body());
     let heights = file.profile.as_ref().and_then(|profile| profile.value.heights.as_ref());
     let of = heights.and_then(|heights| heights.value.of.as_ref()).filter(|of| of.value == OfFile::Gap);

@@ -84,7 +84,10 @@ pub(super) fn direction(judge: &mut Judge, file: &StageFile) -> [f64; 2] {
         judge.refuse::<()>(given.span(), format!("roll_direction = {direction:?}{why}"), help)
     };
     if !file.controls.are_steady() {
-        refuse(" without roll = \"steady\"", "roll = [x, y]: where the contact has rolled to says the way, too");
+        refuse(
+            " without roll = \"steady\"",
+            "roll = [x, y]: where the contact has rolled to says the way, too",
+        );
     } else if direction == [0.0; 2] || direction.iter().any(|part| !(part.abs() <= LARGEST)) {
         refuse(": must be finite, and not zero", "[0, 1] is along y, [-1, 0] against x");
     } else if is_line && direction[1] != 0.0 {

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::dimension::Dimension;
 use super::grid::SurfaceGrid;
-use crate::fields::InPlane;
 use crate::document::Table;
+use crate::fields::InPlane;
 
 /// How far the surfaces are taken to move.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, Table, JsonSchema)]
@@ -92,7 +92,11 @@ impl Motion {
     /// On a grid.
     pub fn over(grid: &SurfaceGrid) -> Self {
         let ([width, depth], [dx, dy]) = (grid.size(), grid.spacing());
-        Self { spacing: grid.spacing(), rim: 0.5 * width.hypot(depth) / dx.min(dy), dimension: grid.dimension() }
+        Self {
+            spacing: grid.spacing(),
+            rim: 0.5 * width.hypot(depth) / dx.min(dy),
+            dimension: grid.dimension(),
+        }
     }
 
     /// Where the upper surface lies after a shift [length]: cells along each axis, rounded to a hundredth of a cell. Along a line contact nothing

@@ -170,7 +170,11 @@ impl Profile {
         let (rolling, fixed): (Vec<Shape>, Vec<Shape>) = (rolling, fixed);
         let of_upper = [rolling.len(), 0];
         let shapes = rolling.into_iter().chain(fixed).collect();
-        Self { shapes, heights: self.heights.clone(), of_upper }.gap_with_upper_at(grid, Place::shifted(cells), false)
+        Self { shapes, heights: self.heights.clone(), of_upper }.gap_with_upper_at(
+            grid,
+            Place::shifted(cells),
+            false,
+        )
     }
 
     /// Lowest sum of shapes and heights of a cell, or in the middle [length].
@@ -284,13 +288,15 @@ mod tests {
         // the sum of both, less the first touch of it without a shift
         let lower = Profile { of_upper: [0, 0], ..of(bed, heights(5)) };
         let both = profile.gap_with_upper_at(&grid, Place::shifted([2.0, -1.0]), false);
-        let [one, other] =
-            [&upper, &lower].map(|profile| profile.gap_with_upper_at(&grid, Place::shifted([2.0, -1.0]), false));
+        let [one, other] = [&upper, &lower]
+            .map(|profile| profile.gap_with_upper_at(&grid, Place::shifted([2.0, -1.0]), false));
         let less = one[[4, 3]] + other[[4, 3]] - both[[4, 3]];
         for ((i, j), gap) in both.indexed_iter().filter(|(_, gap)| **gap < 1e3) {
             assert!((one[[i, j]] + other[[i, j]] - less - gap).abs() < 1e-14);
         }
         // Repeated, nothing is unknown.
-        assert!(profile.gap_with_upper_at(&grid, Place::shifted([2.3, -1.0]), true).iter().all(|gap| *gap < 10.0));
+        assert!(
+            profile.gap_with_upper_at(&grid, Place::shifted([2.3, -1.0]), true).iter().all(|gap| *gap < 10.0)
+        );
     }
 }

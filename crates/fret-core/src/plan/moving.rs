@@ -43,7 +43,8 @@ pub fn rolls_along(case: &Case, axis: usize) -> bool {
 /// # Errors
 /// At the size of the grid, which the cells follow from.
 pub fn in_whole_cells(case: &Case, grid: &SurfaceGrid) -> Result<(), CaseError> {
-    let no_step = |stage: &&Stage| stage.steady && step_towards(stage.roll_direction, grid.spacing()).is_none();
+    let no_step =
+        |stage: &&Stage| stage.steady && step_towards(stage.roll_direction, grid.spacing()).is_none();
     if let Some(Stage { name, roll_direction, .. }) = case.stages.iter().find(no_step) {
         let [dx, dy] = grid.spacing();
         let message = format!(

@@ -163,26 +163,13 @@ impl Moving {
         (to, is_known)
     }
 
-    /// By how much more the upper surface moves over the grid by an increment of the twist [rad] about its own middle, on arcs, than about the middle
-    /// of the grid along straight lines [length]; `None` where it does not turn.
-    fn of_turn(&self, to: Place, twist: f64) -> Option<[Array2<f64>; 2]> {
-        if twist == 0.0 {
-            return None;
-        }
+    /// By how much more the upper surface moves over the grid by an increment of the twist [rad] about its own middle, half-way between two places, than
+    /// about the middle of the grid [length]; `None` where that is no more.
+    fn of_turn(&self, [from, to]: [Place; 2], twist: f64) -> Option<[Array2<f64>; 2]> {
         let spacing = self.grid.spacing();
-        let middle = [0, 1].map(|axis| to.cells[axis] * spacing[axis]);
-        let (sine, cosine) = twist.sin_cos();
-        let more = |(i, j): (usize, usize)| {
-            let [x, y] = [self.grid.centre(0, i), self.grid.centre(1, j)];
-            // What lies here now has come on an arc about the middle of the body.
-            let [from_x, from_y] = [x - middle[0], y - middle[1]];
-            let came = [
-                (1.0 - cosine) * from_x - sine * from_y,
-                (1.0 - cosine) * from_y + sine * from_x,
-            ];
-            [came[0] + twist * y, came[1] - twist * x]
-        };
-        Some([0, 1].map(|axis| Array2::from_shape_fn(self.grid.cells(), |cell| more(cell)[axis])))
+        let [x, y] = [0, 1].map(|axis| 0.5 * (from.cells[axis] + to.cells[axis]) * spacing[axis]);
+        let more = (twist != 0.0 && [x, y] != [0.0; 2]).then_some([twist * y, -twist * x])?;
+        Some(more.map(|along| Array2::from_elem(self.grid.cells(), along)))
     }
 
     /// Whether cells in contact lie beside cells over which nothing is known of the upper body.
@@ -328,7 +315,7 @@ impl<'a> Stepper<'a> {
                 let [x, y] = way.of_vectors(before.each_ref(), outside);
                 [x - &before[0], y - &before[1]]
             });
-            let of_turn = moving.of_turn(place, twist - state.twist);
+            let of_turn = moving.of_turn([from, place], twist - state.twist);
             let along = match (along, of_turn) {
                 (Some([x, y]), Some([more_x, more_y])) => Some([x + more_x, y + more_y]),
                 (one, other) => one.or(other),
