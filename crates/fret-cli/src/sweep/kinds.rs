@@ -5,7 +5,7 @@ use fret_core::model::controls::ways;
 use super::key::words_of;
 
 /// Last words of keys that have a unit, and its kind.
-const KINDS: [(&str, &str); 30] = [
+const KINDS: [(&str, &str); 31] = [
     ("size", "length"),
     ("datum", "length"),
     ("thickness", "length"),
@@ -33,6 +33,8 @@ const KINDS: [(&str, &str); 30] = [
     ("yield_strength", "pressure"),
     ("residual_stress", "pressure"),
     ("wear_coefficient", "1/pressure"),
+    // Of debris.
+    ("stiffness", "pressure"),
     // Of an interface; of the machine below.
     ("normal_stiffness", "pressure/length"),
     ("shear_stiffness", "pressure/length"),
@@ -75,6 +77,7 @@ mod tests {
             ("profile.formula.parameters.radius", None),
             ("friction.coefficient", None),
             ("wear.coefficient", Some("1/pressure")),
+            ("wear.debris.stiffness", Some("pressure")),
             ("lower.substrate.poisson", None),
         ] {
             assert_eq!(kind_of(key), kind, "{key}");

@@ -145,7 +145,6 @@ pub(super) struct WearFile {
 }
 
 /// Part of a volume.
-const STIFFNESS: Range = Range::POSITIVE;
 const FRACTION: Range = Range::between(0.0, 1.0, "must lie between 0 and 1");
 
 /// Debris between the surfaces: a layer that fills the gap, in each cell as thick as what has stayed there. It lies in the frame of the lower
@@ -161,7 +160,7 @@ pub(super) struct DebrisFile {
     #[range(LENGTH)]
     pub outflow_length: Option<f64>,
     /// Modulus of the debris [pressure]: under a pressure p it gives by p x thickness / `stiffness` and no further aside. Default: it does not give.
-    #[range(STIFFNESS)]
+    #[range(Range::POSITIVE)]
     pub stiffness: Option<f64>,
 }
 

@@ -83,7 +83,10 @@ mod tests {
             "[wear.debris]\nfraction = 0.25\noutflow_length = 3.0\nstiffness = 7.0\n[wear.rim]\nwidth = 0.1\ninterior = 0.2\n",
         );
         let rule = read(BALL, &[("increments = 1\n", &text)]).wear.unwrap();
-        assert_eq!(rule.debris, Some(DebrisRule { fraction: 0.25, outflow_length: Some(3.0), stiffness: Some(7.0) }));
+        assert_eq!(
+            rule.debris,
+            Some(DebrisRule { fraction: 0.25, outflow_length: Some(3.0), stiffness: Some(7.0) })
+        );
         assert_eq!(rule.rim, Some(RimRule { width: 0.1, interior: [0.2; 2] }));
         let stays = with("[wear.debris]\nfraction = 1.0\n");
         let rule = read(BALL, &[("increments = 1\n", &stays)]).wear.unwrap();

@@ -245,7 +245,8 @@ impl SurfaceCompliance for SpectralCompliance {
     }
 
     fn full_single(&mut self) -> Option<SinglePrecisionOperator<'_>> {
-        let Self { single: Singles { wanted, full, .. }, workspace, shear_axis, give, applications, .. } = self;
+        let Self { single: Singles { wanted, full, .. }, workspace, shear_axis, give, applications, .. } =
+            self;
         let product = made(full, self.full.as_ref(), *wanted)?;
         Some(SinglePrecisionOperator { product, workspace, shear_axis: *shear_axis, give, applications })
     }
