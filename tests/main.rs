@@ -67,5 +67,6 @@ mod surfaces;
 mod thinning;
 mod third_body;
 mod tilt;
+mod turned_surfaces;
 mod two_bodies;
 mod wear;

@@ -450,6 +450,116 @@ fn the_steady_state_is_what_marching_ends_with() {
     }
 }
 
+/// Unlike coated bodies under creepage and spin, rolled to their steady state: radii, cells and creepage along x and y, and the way. Forces, moment, rolling
+/// friction, creepage along x and y, and spin.
+fn rolled_on(
+    [radii, cells]: [[f64; 2]; 2],
+    (direction, creepage, spin): ([f64; 2], [f64; 2], f64),
+    driven: Option<[f64; 2]>,
+) -> [f64; 7] {
+    let drive = driven.map_or_else(
+        || format!("creepage = {creepage:?}\nspin = {spin:e}"),
+        |force| format!("tangential_force = {force:?}"),
+    );
+    let sides = [0, 1].map(|axis| 0.055 * cells[axis]);
+    let text = format!(
+        "[grid]\ncells = [{}, {}]\nsize = {sides:?}\n[upper]\nsubstrate = {{ young = 3.0, poisson = 0.2 }}\n[lower]\n\
+         coatings = [{{ thickness = 0.3, young = 4.0, poisson = 0.3 }}]\nsubstrate = {{ young = 1.0, poisson = 0.3 }}\n\
+         [profile.ellipsoid]\nradius_x = {:?}\nradius_y = {:?}\n[friction]\ncoefficient = 0.3\n[solver]\ntolerance = 1e-9\n\
+         [[load]]\nnormal_force = 0.0146\nincrements = 3\n[[load]]\nroll = \"steady\"\nroll_direction = {direction:?}\n{drive}\nincrements = 1\n",
+        cells[0], cells[1], radii[0], radii[1]
+    );
+    let history = solved(&text);
+    assert!(off_first_law(&history, 0.0) < 1e-9, "{:e}", off_first_law(&history, 0.0));
+    let last = history.steps.last().unwrap();
+    let [[qx, qy], [x, y]] = [last.tangential_force, last.creepage.unwrap()];
+    let rolled = history.state.roll;
+    let [dx, dy] = direction;
+    assert!((rolled[0] * dy - rolled[1] * dx).abs() < 1e-12 && rolled[0] * dx + rolled[1] * dy > 0.0);
+    [qx, qy, last.twist_moment, last.rolling_friction.unwrap(), x, y, last.spin.unwrap()]
+}
+
+/// The largest difference of forces, moment, rolling friction and creepages, each over the size of its kind.
+fn apart(one: [f64; 7], other: [f64; 7]) -> f64 {
+    let size = |places: &[usize]| places.iter().map(|place| one[*place].abs()).fold(0.0, f64::max);
+    let scales =
+        [size(&[0, 1]), size(&[0, 1]), size(&[2]), size(&[3]), size(&[4, 5]), size(&[4, 5]), size(&[6])];
+    (0..7).map(|place| (one[place] - other[place]).abs() / scales[place].max(1e-12)).fold(0.0, f64::max)
+}
+
+/// A steady state rolled to along y is that along x with the axes exchanged: so are profile, cells and creepage, and what turns, turns the other way.
+/// Rolled against x it is the mirror image. The search does the same in all of them, so that they differ by rounding alone, or,
+/// where that turns an iteration, by the residuals.
+#[test]
+fn steady_states_along_all_axes_are_one_problem() {
+    let (radii, cells) = ([100.0, 60.0], [46.0, 40.0]);
+    let (creepage, spin) = ([1e-3, 5e-4], 2e-3);
+    let exchanged = |[x, y]: [f64; 2]| [y, x];
+    for driven in [None, Some([1e-3, 4e-4])] {
+        let along = rolled_on([radii, cells], ([1.0, 0.0], creepage, spin), driven);
+        let [qx, qy, m, friction, x, y, turned] = along;
+        let back = driven.map(|[x, y]| [-x, y]);
+        let mirrored = rolled_on([radii, cells], ([-2.0, 0.0], [-creepage[0], creepage[1]], -spin), back);
+        let across = rolled_on(
+            [exchanged(radii), exchanged(cells)],
+            ([0.0, 3.0], exchanged(creepage), -spin),
+            driven.map(exchanged),
+        );
+        let back = driven.map(|[x, y]| [y, -x]);
+        let against = rolled_on(
+            [exchanged(radii), exchanged(cells)],
+            ([0.0, -1.0], [creepage[1], -creepage[0]], spin),
+            back,
+        );
+        let off = [
+            apart([-qx, qy, -m, friction, -x, y, -turned], mirrored),
+            apart([qy, qx, -m, friction, y, x, -turned], across),
+            apart([qy, -qx, m, friction, y, -x, turned], against),
+        ];
+        println!("steady, {driven:?}: {along:.6?}; against x, along y, against y off by {off:?}");
+        assert!(off.iter().all(|off| *off < 1e-8), "{off:?}");
+    }
+}
+
+/// A ball of one coating rolls alike in all directions: along a diagonal, by steps of one cell each way, and by two cells and one. Steps are 1.4 and
+/// 2.2 cells long, and the cells lie otherwise on the contact: 36 cells over it leave a part in a hundred.
+#[test]
+fn a_ball_rolls_on_alike_in_all_directions() {
+    let rolled = |direction: [f64; 2]| {
+        let [c, s] = direction.map(|part| part / direction[0].hypot(direction[1]));
+        let creepage = [1e-3 * c - 5e-4 * s, 1e-3 * s + 5e-4 * c];
+        let found = rolled_on([[100.0, 100.0], [46.0, 46.0]], (direction, creepage, 2e-3), None);
+        let [x, y] = [found[0], found[1]];
+        [x * c + y * s, y * c - x * s, found[2], found[3]]
+    };
+    let along = rolled([1.0, 0.0]);
+    for direction in [[1.0, 1.0], [-1.0, 2.0]] {
+        let found = rolled(direction);
+        let off = [0, 1, 2, 3].map(|place| found[place] / along[place] - 1.0);
+        println!("a ball along {direction:?}: {found:.6?}, along x {along:.6?}, off by {off:?}");
+        assert!(off.iter().all(|off| off.abs() < 0.02), "{off:?}");
+    }
+}
+
+/// The grid goes with the contact by whole cells: a direction that none of them lie in is refused before anything is solved.
+#[test]
+fn directions_between_the_cells_are_refused() {
+    let text = |direction: &str| {
+        format!(
+            "[grid]\ncells = [32, 32]\nsize = [3.2, 3.2]\n[upper]\nrigid = true\n[lower]\nsubstrate = {{ young = 1.0, poisson = 0.3 }}\n\
+             [profile.sphere]\nradius = 100.0\n[friction]\ncoefficient = 0.3\n[[load]]\nnormal_force = 0.01\nincrements = 1\n\
+             [[load]]\nroll = \"steady\"\nroll_direction = {direction}\nincrements = 1\n"
+        )
+    };
+    let planned = |direction: &str| {
+        Plan::new(Case::from_toml(&text(direction), "case.toml").unwrap_or_else(|error| panic!("{error}")))
+    };
+    let refused = planned("[1.0, 0.3]").map(|_| ()).unwrap_err().to_string();
+    assert!(refused.contains("have no step of at most 3") && refused.contains("[1.0, 0.3]"), "{refused}");
+    let mirrors = planned("[0.0, -1.0]").unwrap_or_else(|error| panic!("{error}")).symmetry.axes();
+    assert_eq!(mirrors, [true, false]);
+}
+
 /// What a steady point costs: 64 x 64 cells, coupled, in operator applications.
 #[test]
 fn a_steady_point_of_a_coated_ball_is_found_soon() {
@@ -464,7 +574,8 @@ fn a_steady_point_of_a_coated_ball_is_found_soon() {
         "steady point: {:?} after {} increments, {} convolutions, {:.3} s",
         last.tangential_force, last.parts, last.work.convolutions, last.wall_s
     );
-    assert!(last.work.convolutions < 4000, "{}", last.work.convolutions);
+    // 2704 were counted, 46 cells over the contact.
+    assert!(last.work.convolutions < 3000, "{}", last.work.convolutions);
     let [creepage, spin] = [last.creepage.unwrap()[1], last.spin.unwrap()];
     assert!((creepage / 5e-4 - 1.0).abs() < 1e-9 && (spin / 1e-3 - 1.0).abs() < 1e-9);
 }

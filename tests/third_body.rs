@@ -7,7 +7,7 @@ use fret_core::case::{Attachments, Case};
 use fret_core::history::{History, Start, StepRecord};
 use fret_core::plan::{LeaveOut, Plan, Simplification};
 use fret_core::run::{Silent, Simulation};
-use fret_validation::solved;
+use fret_validation::{off_first_law, solved};
 use ndarray::Array2;
 
 const FINITE: &str = "[kinematics]\ndisplacement = \"finite\"\n";
@@ -220,4 +220,80 @@ fn debris_lasts_into_a_history_that_starts_from_it() {
     assert_eq!(end.debris, worn.steps.last().unwrap().debris);
     // Nothing wears any more, and nothing is asked of what is kept of it.
     assert!(end.contact_cells >= worn.steps.last().unwrap().contact_cells);
+}
+
+/// Normal displacement of a half-plane of E* = 1, up to a constant, by an even pressure of 1 over `half` to both sides, `away` from its middle (Johnson,
+/// Contact Mechanics, 1985, eq. 2.30a).
+fn displacement_by_a_strip(away: f64, half: f64) -> f64 {
+    let part = |to: f64| if to == 0.0 { 0.0 } else { to * (to / half).abs().ln() };
+    -2.0 / PI * (part(away + half) - part(away - half))
+}
+
+/// Debris that gives by p b/E: where bodies touch, profile, wear, debris, what that gives and the elastic displacement, which is in closed form here, are
+/// the same sum in every cell. Under a stiffness beyond all others nothing is changed but roundings.
+#[test]
+fn debris_gives_by_its_thickness_and_the_pressure() {
+    // Pressed further once more without friction, so that nothing wears after the last pressure is found.
+    let further =
+        format!("[[load]]\nnormal_force = {:e}\nfriction = 0.0\nincrements = 1\n", 1.2 * line_force());
+    let case = |stiffness: &str| {
+        let wear = format!("[wear.debris]\nfraction = 0.9\n{stiffness}{further}");
+        cylinder("", [0.003, 0.0015], 400, &wear)
+    };
+    let stiffness = 2e-3;
+    let history = solved(&case(&format!("stiffness = {stiffness:e}\n")));
+    let fields = history.fields.last().unwrap();
+    let [worn, debris, pressure] =
+        [&fields.worn_depth, &fields.debris, &fields.pressure].map(|field| field.as_ref().unwrap());
+    let spacing = history.grid.spacing()[0];
+    let x = |i: usize| history.grid.centre(0, i);
+    let gives = |i: usize| pressure[[i, 0]] * debris[[i, 0]] / stiffness;
+    let elastic = |i: usize| {
+        let by = |k: usize| pressure[[k, 0]] * displacement_by_a_strip(x(i) - x(k), 0.5 * spacing);
+        (0..96).map(by).sum::<f64>()
+    };
+    let sum = |i: usize| x(i) * x(i) / (2.0 * RADIUS) + worn[[i, 0]] - debris[[i, 0]] + gives(i) + elastic(i);
+    let touching: Vec<usize> = (0..96).filter(|i| pressure[[*i, 0]] > 0.0).collect();
+    let middle = sum(48);
+    let off = touching.iter().map(|i| (sum(*i) - middle).abs()).fold(0.0, f64::max);
+    let [most, least] = [f64::max, f64::min].map(|of| touching.iter().map(|i| gives(*i)).reduce(of).unwrap());
+    println!(
+        "debris gives by {least:.2e} to {most:.2e} in {} cells; sums differ by {off:.1e}",
+        touching.len()
+    );
+    // residuals of 1e-8 of an approach of some 1e-3
+    assert!(touching.len() > 10 && most - least > 1e-5 && off < 1e-9, "{off:e}");
+    let [stiff, without] = ["stiffness = 1e30\n", ""].map(|text| solved(&case(text)));
+    let [one, other] = [&stiff, &without].map(|history| history.steps.last().unwrap().clone());
+    assert!((one.approach / other.approach - 1.0).abs() < 1e-9);
+    assert!((one.worn_volume / other.worn_volume - 1.0).abs() < 1e-9);
+    assert!(history.steps.last().unwrap().approach > 1.01 * other.approach);
+}
+
+/// A ball whose shear moves the surfaces normally, on debris that gives: what carries by itself is a diagonal in every operator, so that energy is
+/// neither made nor lost; on a half of its grid and on the whole.
+#[test]
+fn coupled_contacts_know_debris_that_gives() {
+    let text = "[grid]\ncells = [32, 32]\nsize = [4.0, 4.0]\n[upper]\nrigid = true\n[lower]\nsubstrate = { young = 1.0, poisson = 0.2 }\n\
+        [profile.sphere]\nradius = 100.0\n[friction]\ncoefficient = 0.3\n[solver]\ntolerance = 1e-9\n[wear]\ncoefficient = 0.05\nevery = 10\nlargest_step = 0.1\n\
+        [wear.debris]\nfraction = 0.8\nstiffness = 0.005\n[output]\nfields = [\"pressure\", \"debris\"]\n\
+        [[load]]\nnormal_force = 1.2e-2\nincrements = 2\n[[load]]\nshift = [0.05, 0.0]\ncycles = 20\nincrements = 8\n\
+        [[load]]\nnormal_force = 1.5e-2\nshift = [0.02, 0.0]\nincrements = 4\n";
+    let run = |text: &str, leave_out: LeaveOut| {
+        let plan = Plan::leaving_out(Case::from_toml(text, "case.toml").unwrap(), leave_out).unwrap();
+        (plan.symmetry.copies(), Simulation::new(&plan).run(&mut Silent).unwrap())
+    };
+    let (copies, part) = run(text, LeaveOut::ALL);
+    let (alone, whole) = run(text, LeaveOut::all_but(Simplification::Mirror));
+    assert!(copies == 2 && alone == 1);
+    for history in [&part, &whole] {
+        let off = off_first_law(history, 0.0);
+        assert!(off < 1e-9, "{off:e}");
+    }
+    let (_, rigid) = run(&text.replace("\nstiffness = 0.005", ""), LeaveOut::ALL);
+    let [one, other, stiff] = [&part, &whole, &rigid].map(|history| history.steps.last().unwrap().approach);
+    println!(
+        "approach {one:.8e} on a half, {other:.8e} on the whole; {stiff:.8e} on debris that does not give"
+    );
+    assert!((one / other - 1.0).abs() < 1e-7 && one > 1.005 * stiff);
 }

@@ -151,6 +151,10 @@ class Debris(TypedDict):
     Slip distance in which all but 1/e of the debris of a cell flows out over the rim of the contact [length]: its thickness falls by thickness x
     slip distance / `outflow_length`. Default: none flows out.
     """
+    stiffness: NotRequired[float]
+    """
+    Modulus of the debris [pressure]: under a pressure p it gives by p x thickness / `stiffness` and no further aside. Default: it does not give.
+    """
 
 
 Depths: TypeAlias = Sequence[float] | Auto
@@ -1263,7 +1267,11 @@ class Stage(TypedDict):
     roll: NotRequired[Roll]
     """
     Distance that the contact has rolled along both surfaces, along x and y [length]: at the end, or the amplitude; or "held". A
-    number in a line contact. "steady": along x, in each increment until nothing changes any more.
+    number in a line contact. "steady": along `roll_direction`, in each increment until nothing changes any more.
+    """
+    roll_direction: NotRequired[AlongPhase]
+    """
+    Direction in which a contact with `roll = "steady"` rolls, along x and y, of any length; a number in a line contact. Default: [1, 0].
     """
     shift: NotRequired[Sequence[Component]]
     """

@@ -34,6 +34,8 @@ const KINDS: [(&str, &str); 31] = [
     ("hardness", "pressure"),
     ("residual_stress", "pressure"),
     ("wear_coefficient", "1/pressure"),
+    // Of debris.
+    ("stiffness", "pressure"),
     // Of an interface; of the machine below.
     ("normal_stiffness", "pressure/length"),
     ("shear_stiffness", "pressure/length"),
@@ -76,6 +78,7 @@ mod tests {
             ("profile.formula.parameters.radius", None),
             ("friction.coefficient", None),
             ("wear.coefficient", Some("1/pressure")),
+            ("wear.debris.stiffness", Some("pressure")),
             ("lower.substrate.poisson", None),
         ] {
             assert_eq!(kind_of(key), kind, "{key}");

@@ -2,11 +2,10 @@
 
 use super::file::CaseFile;
 use super::judge::Judge;
-use super::misfits::{Loading, Misfit};
+use super::misfits::{Loading, twist_by_moment};
 use super::side::Side;
 use super::surface_file::OfFile;
 use crate::document::At;
-use crate::model::controls::{TILT, TWIST};
 use crate::model::{Displacement, Frame, Kinematics};
 
 /// What is looked at.
@@ -45,12 +44,11 @@ pub(super) fn kinematics(judge: &mut Judge, concerned: &Concerned<'_>) -> Kinema
         }
         return kinematics;
     }
-    let turning = Misfit { freedoms: TWIST..TILT, motions: false, in_table: "a twist" };
-    turning.refuse(
+    let why = format!("twist_moment with {FINITE}: surfaces are turned by a twist that is prescribed");
+    twist_by_moment(
         judge,
         *loading,
-        &format!("with {FINITE}: surfaces are moved by the shift, not turned by a twist"),
-        SMALL,
+        (&why, "twist, the angle; or no twist_moment: the upper body then does not turn"),
     );
     let beyond = file.grid.beyond.as_ref().filter(|beyond| !beyond.value.is_body());
     let heights = file.profile.as_ref().and_then(|profile| profile.value.heights.as_ref());
@@ -109,7 +107,9 @@ mod tests {
         let wear = with("increments = 1\n[wear]\ncoefficient = 1e-3\n");
         refused(BALL, &[MOVES, wear], "each wears in its own frame", "1e-3");
         let twist = with("increments = 1\n[[load]]\ntwist = 1e-3\nincrements = 1\n");
-        refused(BALL, &[MOVES, twist], "not turned by a twist", "1e-3");
+        assert!(read(BALL, &[MOVES, twist]).kinematics.is_finite());
+        let moment = with("increments = 1\n[[load]]\ntwist_moment = 1e-3\nincrements = 1\n");
+        refused(BALL, &[MOVES, moment], "a twist that is prescribed", "1e-3");
         let ends = ("size = [3.0, 3.0]", "size = [3.0, 3.0]\nbeyond = \"no body\"");
         refused(BALL, &[MOVES, ends], "which body ends there", "\"no body\"");
         let map = ("coefficient = 0.3\n", "coefficient = 0.3\nmoves_with = \"upper\"\n");

@@ -2,15 +2,15 @@
 
 use std::ops::Range;
 
-use super::control_keys::Given;
+use super::control_keys::{BothOrOne, Given, LARGEST};
 use super::file::CaseFile;
 use super::judge::Judge;
-use super::misfits::{Loading, Misfit};
+use super::misfits::{Loading, Misfit, twist_by_moment};
 use super::stage_file::{IncrementsFile, StageFile};
 use crate::document::At;
 use crate::model::controls::{BULK_STRESS, FREEDOMS, Kind, ROLL, TANGENTIAL, TILT};
-use crate::model::stage::{Course, Stage, StageControl};
-use crate::model::{CoulombFriction, Frame, Kinematics, Profile, Shape};
+use crate::model::stage::{Course, Stage, StageControl, along_x};
+use crate::model::{CoulombFriction, Dimension, Frame, Kinematics, Profile, Shape};
 
 /// Refuses what rolling cannot be combined with.
 pub(super) fn rolling(
@@ -63,22 +63,37 @@ pub(super) fn rolling(
 
 /// Refuses controls that have no place beside a roll.
 fn beside(judge: &mut Judge, loading: Loading<'_>, kinematics: Kinematics) {
-    let (files, stages) = loading;
-    for (index, file) in files.iter().enumerate() {
-        // 0, too: the moment would be one about the middle of the grid.
-        let by_key = file.value.controls.of("twist_moment").map(Given::span);
-        let twist = stages.and_then(|stages| stages.get(index)).and_then(|stage| stage.twist.as_ref());
-        let by_table = file.value.table.as_ref().filter(|_| matches!(twist, Some(StageControl::Force(_))));
-        if let Some(span) = by_key.or(by_table.map(At::span)) {
-            let help = "spin, or no twist_moment: the upper body then does not turn";
-            judge.refuse::<()>(span, "twist_moment of a contact that rolls: its spin is prescribed", help);
-        }
-    }
+    let why = "twist_moment of a contact that rolls: its spin is prescribed";
+    twist_by_moment(judge, loading, (why, "spin, or no twist_moment: the upper body then does not turn"));
     if kinematics.frame == Frame::Bodies {
         let tilt = Misfit { freedoms: TILT..BULK_STRESS, motions: false, in_table: "a tilt" };
         let why = "of a contact that rolls, with kinematics.frame = \"bodies\": a tilt is about the middle of the grid, and the contact leaves it";
         tilt.refuse(judge, loading, why, "[kinematics] frame = \"contact\"");
     }
+}
+
+/// The way that a stage rolls on to a steady state, along x and y: along x where it says nothing.
+pub(super) fn direction(judge: &mut Judge, file: &StageFile) -> [f64; 2] {
+    let Some(given) = &file.roll_direction else { return along_x() };
+    let direction = match given.value {
+        BothOrOne::Both(both) => both,
+        BothOrOne::Line(across) => [across, 0.0],
+    };
+    let is_line = judge.dimension == Dimension::Line;
+    let mut refuse = |why: &str, help: &str| {
+        judge.refuse::<()>(given.span(), format!("roll_direction = {direction:?}{why}"), help)
+    };
+    if !file.controls.are_steady() {
+        refuse(
+            " without roll = \"steady\"",
+            "roll = [x, y]: where the contact has rolled to says the way, too",
+        );
+    } else if direction == [0.0; 2] || direction.iter().any(|part| !(part.abs() <= LARGEST)) {
+        refuse(": must be finite, and not zero", "[0, 1] is along y, [-1, 0] against x");
+    } else if is_line && direction[1] != 0.0 {
+        refuse(": a line contact rolls across its line", "1 or -1");
+    }
+    direction
 }
 
 /// Refuses what has no steady state.
@@ -297,6 +312,12 @@ mod tests {
         refused(ROLLER, &[("increments = 1\n", &driven)], "does so by distance rolled", "\"steady\"");
         let auto = "increments = 1\n[[load]]\nroll = \"steady\"\nincrements = \"auto\"\n";
         refused(ROLLER, &[("increments = 1\n", auto)], "increments = \"auto\"", "\"steady\"");
+        let to_nowhere = with("roll = \"steady\"\nroll_direction = 0.0");
+        refused(ROLLER, &[("increments = 1\n", &to_nowhere)], "not zero", "0.0");
+        let along_the_line = with("roll = \"steady\"\nroll_direction = [0.0, 1.0]");
+        refused(ROLLER, &[("increments = 1\n", &along_the_line)], "across its line", "[0.0, 1.0]");
+        let so_far = with("roll = 1.0\nroll_direction = -1.0");
+        refused(ROLLER, &[("increments = 1\n", &so_far)], "without roll = \"steady\"", "-1.0");
         let cycles = with("roll = \"steady\"\ncycles = 3");
         refused(ROLLER, &[("increments = 1\n", &cycles)], "no steady state", "\"steady\"");
     }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 
 use super::body_file::COEFFICIENT;
-use super::control_keys::{ControlKeys, PhaseKeys};
+use super::control_keys::{BothOrOne, ControlKeys, PhaseKeys};
 use super::surface_file::{CoefficientFile, JUMP, LENGTH, UP_TO_1};
 use crate::document::{At, Named, Range, Table};
 use crate::model::WearLaw;
@@ -18,6 +18,8 @@ pub(super) struct StageFile {
     #[table(flatten)]
     #[schemars(flatten)]
     pub controls: ControlKeys,
+    /// Direction in which a contact with `roll = "steady"` rolls, along x and y, of any length; a number in a line contact. Default: [1, 0].
+    pub roll_direction: Option<At<BothOrOne>>,
     /// A CSV file with the values of the controls, instead of naming them here; its columns are named like the controls.
     pub table: Option<At<String>>,
     /// Which column of the table holds which control, when they are named otherwise: `tangential_force_x = "Q [N]"`.
@@ -157,6 +159,9 @@ pub(super) struct DebrisFile {
     /// slip distance / `outflow_length`. Default: none flows out.
     #[range(LENGTH)]
     pub outflow_length: Option<f64>,
+    /// Modulus of the debris [pressure]: under a pressure p it gives by p x thickness / `stiffness` and no further aside. Default: it does not give.
+    #[range(Range::POSITIVE)]
+    pub stiffness: Option<f64>,
 }
 
 /// Wear by the distance from the rim of the contact to which air has access; a pocket inside of the contact has none.

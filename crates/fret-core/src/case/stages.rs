@@ -9,6 +9,7 @@ use super::file::RigFile;
 use super::judge::Judge;
 use super::mean_gap::MEAN_GAP;
 use super::rig::driven;
+use super::rolling::direction;
 use super::stage_file::{IncrementsFile, RampFile, StageFile, WaveformFile};
 use super::stage_names::own_names;
 use super::table::table;
@@ -211,6 +212,7 @@ fn stage(
     }
     let controls = controls(judge, &place, file, columns.as_ref());
     driven(judge, &place, file, columns.as_ref(), rig);
+    let roll_direction = direction(judge, file);
     let are_good = judge.mistakes.len() == before;
     let mut here = Here { judge, file, index, place };
     let auto = matches!(file.increments, IncrementsFile::Auto(_));
@@ -235,6 +237,7 @@ fn stage(
         bulk_stress: [[lower_x, lower_y], [upper_x, upper_y]],
         roll: [roll_x, roll_y],
         steady: file.controls.are_steady(),
+        roll_direction,
         increments,
         history_tolerance: auto.then_some(tolerance),
         course: here.course().unwrap_or(Course::Linear),

@@ -25,6 +25,7 @@ pub(super) fn third_body(
     let debris = file.debris.as_ref().map(|given| DebrisRule {
         fraction: given.value.fraction,
         outflow_length: given.value.outflow_length,
+        stiffness: given.value.stiffness,
     });
     let rim = file.rim.as_ref().map(|given| {
         let rim = &given.value;
@@ -79,10 +80,13 @@ mod tests {
     #[test]
     fn debris_and_rim_are_read() {
         let text = with(
-            "[wear.debris]\nfraction = 0.25\noutflow_length = 3.0\n[wear.rim]\nwidth = 0.1\ninterior = 0.2\n",
+            "[wear.debris]\nfraction = 0.25\noutflow_length = 3.0\nstiffness = 7.0\n[wear.rim]\nwidth = 0.1\ninterior = 0.2\n",
         );
         let rule = read(BALL, &[("increments = 1\n", &text)]).wear.unwrap();
-        assert_eq!(rule.debris, Some(DebrisRule { fraction: 0.25, outflow_length: Some(3.0) }));
+        assert_eq!(
+            rule.debris,
+            Some(DebrisRule { fraction: 0.25, outflow_length: Some(3.0), stiffness: Some(7.0) })
+        );
         assert_eq!(rule.rim, Some(RimRule { width: 0.1, interior: [0.2; 2] }));
         let stays = with("[wear.debris]\nfraction = 1.0\n");
         let rule = read(BALL, &[("increments = 1\n", &stays)]).wear.unwrap();
@@ -106,6 +110,7 @@ mod tests {
             ("[wear.debris]\nfraction = 1.5\n", "between 0 and 1", "1.5"),
             ("[wear.debris]\nfraction = 0.5\noutflow_length = 0.0\n", "positive", "0.0"),
             ("[wear.debris]\noutflow_length = 1.0\n", "fraction", "[wear.debris]"),
+            ("[wear.debris]\nfraction = 0.5\nstiffness = 0.0\n", "positive", "0.0"),
             ("[wear.rim]\nwidth = 1.0\ninterior = -0.5\n", "zero or positive", "-0.5"),
         ] {
             refused(BALL, &[("increments = 1\n", &with(tables))], message, place);

@@ -33,6 +33,8 @@ pub struct SinglePrecisionOperator<'a> {
     pub(super) product: &'a SingleProduct,
     pub(super) workspace: &'a SharedWorkspace,
     pub(super) shear_axis: Option<usize>,
+    /// What gives in each cell, of an operator of all tractions [length/pressure].
+    pub(super) give: &'a [f64],
     pub(super) applications: &'a mut usize,
 }
 
@@ -48,6 +50,12 @@ impl SinglePrecisionOperator<'_> {
         along_one(self.shear_axis, tractions, displacements, |from, to| {
             self.workspace.lend(|workspace| self.product.apply(workspace, from, to));
         });
+        let unit = self.unit();
+        if let ([pressure, ..], [normal, ..]) = (tractions, displacements) {
+            for ((normal, give), pressure) in normal.iter_mut().zip(self.give).zip(*pressure) {
+                *normal += (give / unit) as f32 * pressure;
+            }
+        }
     }
 }
 

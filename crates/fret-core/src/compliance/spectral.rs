@@ -21,8 +21,17 @@ pub struct SpectralCompliance {
     pub(super) workspace: SharedWorkspace,
     /// The one axis along which shear acts.
     pub(super) shear_axis: Option<usize>,
+    /// What lies between the surfaces gives in each cell by so much under a unit of its own pressure [length/pressure]; empty where nothing does.
+    give: Vec<f64>,
     /// Applications so far.
     pub applications: usize,
+}
+
+/// Adds to a normal displacement what gives under the pressure of each cell alone.
+fn add_give(give: &[f64], pressure: &[f64], normal: &mut [f64]) {
+    for ((normal, give), pressure) in normal.iter_mut().zip(give).zip(pressure) {
+        *normal += give * pressure;
+    }
 }
 
 /// Products in single precision: whether they are wanted, and those made so far.
@@ -135,6 +144,7 @@ impl SpectralCompliance {
             single: Singles { wanted: operators.single, ..Singles::default() },
             workspace: SharedWorkspace::default(),
             shear_axis: operators.shear_axis,
+            give: Vec::new(),
             applications: 0,
         })
     }
@@ -143,6 +153,12 @@ impl SpectralCompliance {
     #[must_use]
     pub fn working_in(self, workspace: &SharedWorkspace) -> Self {
         Self { workspace: workspace.clone(), ..self }
+    }
+
+    /// From now on what lies between the surfaces gives in each cell by so much under a unit of its own pressure [length/pressure]: a diagonal beside the
+    /// elastic response of the bodies. Empty: nothing does.
+    pub fn set_give(&mut self, give: Vec<f64>) {
+        self.give = give;
     }
 
     /// `u_z` from pressure and shear; needs the operator of that name.
@@ -155,6 +171,7 @@ impl SpectralCompliance {
                 }
                 None => product.apply(&self.workspace, &[pressure, shear[0], shear[1]], &mut [normal]),
             }
+            add_give(&self.give, pressure, normal);
         }
     }
 
@@ -181,6 +198,7 @@ impl SurfaceCompliance for SpectralCompliance {
         if let Some(product) = &self.normal {
             self.applications += 1;
             product.apply(&self.workspace, &[pressure], &mut [normal]);
+            add_give(&self.give, pressure, normal);
         } else {
             let zero = vec![0.0; pressure.len()];
             let [mut x, mut y] = [zero.clone(), zero.clone()];
@@ -210,6 +228,7 @@ impl SurfaceCompliance for SpectralCompliance {
             along_one(self.shear_axis, &tractions, &mut displacements, |from, to| {
                 product.apply(workspace, from, to);
             });
+            add_give(&self.give, tractions[0], displacements[0]);
         } else {
             debug_assert!(self.normal.is_some() && self.tangential.is_some(), "no operator was asked for");
             let ([pressure, from_x, from_y], [normal, to_x, to_y]) = (tractions, displacements);
@@ -222,12 +241,13 @@ impl SurfaceCompliance for SpectralCompliance {
         let Self { single: Singles { wanted, tangential, .. }, workspace, shear_axis, applications, .. } =
             self;
         let product = made(tangential, self.tangential.as_ref(), *wanted)?;
-        Some(SinglePrecisionOperator { product, workspace, shear_axis: *shear_axis, applications })
+        Some(SinglePrecisionOperator { product, workspace, shear_axis: *shear_axis, give: &[], applications })
     }
 
     fn full_single(&mut self) -> Option<SinglePrecisionOperator<'_>> {
-        let Self { single: Singles { wanted, full, .. }, workspace, shear_axis, applications, .. } = self;
+        let Self { single: Singles { wanted, full, .. }, workspace, shear_axis, give, applications, .. } =
+            self;
         let product = made(full, self.full.as_ref(), *wanted)?;
-        Some(SinglePrecisionOperator { product, workspace, shear_axis: *shear_axis, applications })
+        Some(SinglePrecisionOperator { product, workspace, shear_axis: *shear_axis, give, applications })
     }
 }

@@ -3,6 +3,7 @@
 mod arithmetic;
 mod dual;
 mod each_cell;
+mod in_plane;
 mod moved;
 mod portions;
 mod registers;
@@ -16,7 +17,8 @@ mod zeros;
 pub use arithmetic::{add_scaled, dot, largest, lower, norm, scale, sum};
 pub use dual::Dual;
 pub use each_cell::{CellRule, CellSize, convert, each_cell, largest_of};
-pub use moved::{Outside, carried, leaves};
+pub use in_plane::InPlane;
+pub use moved::{Outside, carried};
 pub use portions::{in_portions, pieces};
 pub use registers::{Number, Reals};
 pub use room::reset;

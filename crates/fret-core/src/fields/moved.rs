@@ -32,7 +32,7 @@ pub fn carried(field: &Array2<f64>, cells: [f64; 2], outside: Outside) -> Array2
 }
 
 /// Carries one lane of a field.
-fn carry(lane: &mut ArrayViewMut1<'_, f64>, by: f64, outside: Outside) {
+pub(super) fn carry(lane: &mut ArrayViewMut1<'_, f64>, by: f64, outside: Outside) {
     let from: Vec<f64> = lane.iter().copied().collect();
     let count = from.len() as isize;
     let at = |index: isize| match outside {
@@ -73,7 +73,7 @@ fn limited(before: f64, behind: f64) -> f64 {
 }
 
 /// Whether what is not zero in a field would be carried beyond its edge.
-pub fn leaves(field: &Array2<f64>, cells: [f64; 2]) -> bool {
+pub(super) fn leaves(field: &Array2<f64>, cells: [f64; 2]) -> bool {
     let extent = field.dim();
     let is_inside = |index: usize, by: f64, count: usize| {
         let [first, last] = [by.floor(), by.ceil()].map(|by| index as f64 + by);

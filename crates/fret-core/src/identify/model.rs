@@ -7,6 +7,7 @@ use super::error::IdentifyError;
 use super::request::Key;
 use crate::case::{Case, Course, GridSize, Output, Path, Stage, StageControl};
 use crate::history::StepRecord;
+use crate::model::stage::along_x;
 use crate::model::{CoulombFriction, Rig};
 use crate::plan::Plan;
 use crate::run::{Silent, Simulation};
@@ -144,6 +145,7 @@ fn driven(control: StageControl, increments: usize) -> Stage {
         bulk_stress: [[None, None], [None, None]],
         roll: [None, None],
         steady: false,
+        roll_direction: along_x(),
         increments,
         history_tolerance: None,
         course: Course::Linear,

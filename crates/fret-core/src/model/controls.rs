@@ -246,7 +246,7 @@ pub static CONTROLS: [ControlRow; 7] = [
             kind: Motion,
             name: "roll",
             unit: "length",
-            about: "Distance that the contact has rolled along both surfaces, along x and y [length]: at the end, or the amplitude; or \"held\". A\nnumber in a line contact. \"steady\": along x, in each increment until nothing changes any more.",
+            about: "Distance that the contact has rolled along both surfaces, along x and y [length]: at the end, or the amplitude; or \"held\". A\nnumber in a line contact. \"steady\": along `roll_direction`, in each increment until nothing changes any more.",
             phase: "Of the distance rolled.",
         }],
     },

@@ -1,11 +1,14 @@
 //! How surfaces move against each other: stay where they are, whatever the shift, or move with their bodies.
 
+use std::f64::consts::FRAC_PI_2;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::dimension::Dimension;
 use super::grid::SurfaceGrid;
 use crate::document::Table;
+use crate::fields::InPlane;
 
 /// How far the surfaces are taken to move.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, Table, JsonSchema)]
@@ -15,7 +18,7 @@ pub enum Displacement {
     /// Opposite points of the surfaces stay opposite: for a displacement that is small against the contact.
     #[default]
     Small,
-    /// The surface of the upper body moves with it by its shift: profile, topography, wear. Each body wears in its own frame.
+    /// The surface of the upper body moves with it by its shift and its twist: profile, topography, wear. Each body wears in its own frame.
     Finite,
 }
 
@@ -60,17 +63,40 @@ const STEPS: f64 = 100.0;
 /// A position half between two steps goes outward, whatever rounding has made of its last digits.
 const TIE: f64 = 1e-6;
 
-/// How the upper surface moves over the grid, which is fixed to the lower body.
+/// Where the upper surface lies over the grid, which is fixed to the lower body.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Place {
+    /// Cells along each axis from where it lies without a shift.
+    pub cells: [f64; 2],
+    /// Angle about its own middle, from x to y [rad].
+    pub turned: f64,
+}
+
+impl Place {
+    /// Shifted and not turned.
+    pub fn shifted(cells: [f64; 2]) -> Self {
+        Self { cells, turned: 0.0 }
+    }
+}
+
+/// How the upper surface moves over the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion {
     spacing: [f64; 2],
+    /// Half of the diagonal of the grid, in the shorter side of a cell.
+    rim: f64,
     dimension: Dimension,
 }
 
 impl Motion {
     /// On a grid.
     pub fn over(grid: &SurfaceGrid) -> Self {
-        Self { spacing: grid.spacing(), dimension: grid.dimension() }
+        let ([width, depth], [dx, dy]) = (grid.size(), grid.spacing());
+        Self {
+            spacing: grid.spacing(),
+            rim: 0.5 * width.hypot(depth) / dx.min(dy),
+            dimension: grid.dimension(),
+        }
     }
 
     /// Where the upper surface lies after a shift [length]: cells along each axis, rounded to a hundredth of a cell. Along a line contact nothing
@@ -83,15 +109,75 @@ impl Motion {
         self.dimension.along(rounded, 0.0)
     }
 
+    /// A rotation, that which moves no cell by more than half of what positions are rounded to is none, or one by right angles.
+    fn angle(&self, twist: f64) -> f64 {
+        let right = FRAC_PI_2 * (twist / FRAC_PI_2).round();
+        if (twist - right).abs() * self.rim * STEPS < 0.5 { right } else { twist }
+    }
+
+    /// Where the upper surface lies after a shift [length] and a twist [rad].
+    pub fn place(&self, shift: [f64; 2], twist: f64) -> Place {
+        Place { cells: self.cells(shift), turned: self.angle(twist) }
+    }
+
+    /// What brings the upper surface from one place to another.
+    pub fn between(&self, from: Place, to: Place) -> InPlane {
+        InPlane {
+            turned: to.turned - from.turned,
+            pole: from.cells,
+            by: [0, 1].map(|axis| to.cells[axis] - from.cells[axis]),
+            aspect: self.spacing[1] / self.spacing[0],
+        }
+    }
+
+    /// What brings it to a place from where it lies without a shift.
+    pub fn over_grid(&self, place: Place) -> InPlane {
+        self.between(Place::default(), place)
+    }
+
+    /// What brings it back there.
+    pub fn back_from(&self, place: Place) -> InPlane {
+        self.between(place, Place::default())
+    }
+
     /// Whether a motion is less than what positions are rounded to.
     pub fn is_none(&self, shift: [f64; 2]) -> bool {
         self.cells(shift) == [0.0; 2]
     }
 }
 
+/// Cells along an axis that a step in a direction goes at the most.
+pub const MOST_CELLS: usize = 3;
+/// So much of a cell is rounding of lengths.
+const ROUNDING: f64 = 1e-6;
+
+/// Cells along each axis of the shortest step that goes by whole ones in a direction, on cells of a spacing; `None` where none is short.
+pub fn step_towards(direction: [f64; 2], spacing: [f64; 2]) -> Option<[isize; 2]> {
+    let cells = [0, 1].map(|axis| direction[axis] / spacing[axis]);
+    let most = cells[0].abs().max(cells[1].abs());
+    let is_whole = |step: &[f64; 2]| step.iter().all(|cells| (cells - cells.round()).abs() < ROUNDING);
+    let step = (1..=MOST_CELLS).map(|all| cells.map(|cells| cells / most * all as f64)).find(is_whole)?;
+    Some(step.map(|cells| cells.round() as isize))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn steps_go_by_whole_cells() {
+        for (direction, spacing, step) in [
+            ([1.0, 0.0], [0.1, 0.3], Some([1, 0])),
+            ([0.0, -7.0], [0.1, 0.3], Some([0, -1])),
+            ([-1.0, 1.0], [0.1, 0.1], Some([-1, 1])),
+            ([1.0, 1.0], [0.1, 0.3], Some([3, 1])),
+            ([0.2, 0.3], [0.1, 0.1], Some([2, 3])),
+            ([1.0, 0.25], [0.1, 0.1], None),
+            ([1.0, 1e-3], [0.1, 0.1], None),
+        ] {
+            assert_eq!(step_towards(direction, spacing), step, "{direction:?} {spacing:?}");
+        }
+    }
 
     #[test]
     fn positions_are_hundredths_of_a_cell() {

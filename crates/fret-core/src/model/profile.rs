@@ -5,8 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use super::grid::SurfaceGrid;
 use super::heights::Heights;
+use super::kinematics::{Motion, Place};
 use super::shape::Shape;
-use crate::fields::{Outside, carried, in_portions};
+use crate::fields::{Outside, in_portions};
 
 /// Gap where one of the bodies has ended, in diagonals of the grid: finite, so that sums stay numbers, and out of reach.
 pub const BEYOND_THE_BODY: f64 = 1e6;
@@ -102,11 +103,11 @@ impl Profile {
         gap
     }
 
-    /// The undeformed gap where the upper body lies `cells` further along each axis, counted from where it touches first without that: its
+    /// The undeformed gap where the upper body lies at a place, counted from where it touches first without a shift: its
     /// shapes are taken at their places, its heights carried. Where nothing is known of them the gap is that without a
     /// body. `repeats`: the surfaces do.
-    pub fn gap_with_upper_at(&self, grid: &SurfaceGrid, cells: [f64; 2], repeats: bool) -> Array2<f64> {
-        if cells == [0.0; 2] {
+    pub fn gap_with_upper_at(&self, grid: &SurfaceGrid, place: Place, repeats: bool) -> Array2<f64> {
+        if place == Place::default() {
             return self.gap(grid);
         }
         let mut gap = Array2::zeros(grid.cells());
@@ -115,13 +116,14 @@ impl Profile {
         let is_counted = self.is_lowest_anywhere(grid.cells());
         let first = if is_counted { self.first_touch(grid) } else { 0.0 };
         let [of_upper, heights_of_upper] = self.of_upper;
-        let [x, y] = [0, 1].map(|axis| places(grid, axis, cells[axis], repeats));
+        let seen = SeenByUpper::of(grid, place, repeats);
         let values = gap.as_slice_mut().unwrap_or_default();
         in_portions((grid.len(), NUMBERS), [values], &|portion, [gap]| {
             for (gap, cell) in gap.iter_mut().zip(portion) {
                 let (i, j) = (cell / grid.cells()[1], cell % grid.cells()[1]);
                 let (upper, lower) = self.shapes.split_at(of_upper.min(self.shapes.len()));
-                let upper = upper.iter().map(|shape| shape.gap_at(x[i].at, y[j].at));
+                let ([x, y], _) = seen.at(i, j);
+                let upper = upper.iter().map(|shape| shape.gap_at(x, y));
                 let lower = lower.iter().map(|shape| shape.gap_at(grid.centre(0, i), grid.centre(1, j)));
                 *gap = upper.chain(lower).sum();
             }
@@ -135,9 +137,9 @@ impl Profile {
                 gap += heights.depths();
                 continue;
             }
-            gap += &carried(heights.depths(), cells, outside);
+            gap += &Motion::over(grid).over_grid(place).of(heights.depths(), outside);
             for ((i, j), gap) in gap.indexed_iter_mut() {
-                if !(x[i].is_known && y[j].is_known) {
+                if !seen.at(i, j).1 {
                     *gap = f64::INFINITY;
                 }
             }
@@ -168,7 +170,11 @@ impl Profile {
         let (rolling, fixed): (Vec<Shape>, Vec<Shape>) = (rolling, fixed);
         let of_upper = [rolling.len(), 0];
         let shapes = rolling.into_iter().chain(fixed).collect();
-        Self { shapes, heights: self.heights.clone(), of_upper }.gap_with_upper_at(grid, cells, false)
+        Self { shapes, heights: self.heights.clone(), of_upper }.gap_with_upper_at(
+            grid,
+            Place::shifted(cells),
+            false,
+        )
     }
 
     /// Lowest sum of shapes and heights of a cell, or in the middle [length].
@@ -191,23 +197,56 @@ impl Profile {
     }
 }
 
-/// A cell centre as the upper body sees it.
-struct Place {
+/// The cell centres as an upper body sees them that lies at a place.
+struct SeenByUpper<'a> {
+    grid: &'a SurfaceGrid,
+    /// Along each axis, before the turn.
+    axes: [Vec<Seen>; 2],
+    turned: f64,
+}
+
+/// A cell centre along an axis, as the upper body sees it.
+struct Seen {
     /// Its coordinate [length].
     at: f64,
     /// Whether the cells of the upper body that lie over the cell are on the grid, where it lies without a shift.
     is_known: bool,
 }
 
+impl<'a> SeenByUpper<'a> {
+    fn of(grid: &'a SurfaceGrid, place: Place, repeats: bool) -> Self {
+        let axes = [0, 1].map(|axis| shifted(grid, axis, place.cells[axis], repeats));
+        Self { grid, axes, turned: place.turned }
+    }
+
+    /// Coordinates of a cell centre [length], and whether what lies over it is known.
+    fn at(&self, i: usize, j: usize) -> ([f64; 2], bool) {
+        let [x, y] = [&self.axes[0][i], &self.axes[1][j]];
+        if self.turned == 0.0 {
+            return ([x.at, y.at], x.is_known && y.is_known);
+        }
+        let (sine, cosine) = self.turned.sin_cos();
+        let at = [cosine * x.at + sine * y.at, cosine * y.at - sine * x.at];
+        let is_known = (0..2).all(|axis| {
+            let half = (self.grid.cells()[axis] as f64 - 1.0) / 2.0;
+            at[axis].abs() <= (half + ROUNDING) * self.grid.spacing()[axis]
+        });
+        (at, is_known)
+    }
+}
+
+/// So much of a cell is rounding of a turn.
+const ROUNDING: f64 = 1e-9;
+
 /// The cell centres along an axis as an upper body sees them that lies `cells` further.
-fn places(grid: &SurfaceGrid, axis: usize, cells: f64, repeats: bool) -> Vec<Place> {
+fn shifted(grid: &SurfaceGrid, axis: usize, cells: f64, repeats: bool) -> Vec<Seen> {
     let count = grid.cells()[axis] as f64;
     let middle = (count - 1.0) / 2.0;
     let place = |index: usize| {
         let seen = index as f64 - cells;
         let is_known = repeats || cells == 0.0 || seen.floor() >= 0.0 && seen.ceil() <= count - 1.0;
         let seen = if repeats { (seen + 0.5).rem_euclid(count) - 0.5 } else { seen };
-        Place { at: (seen - middle) * grid.spacing()[axis], is_known }
+        Seen { at: (seen - middle) * grid.spacing()[axis], is_known }
     };
     (0..grid.cells()[axis]).map(place).collect()
 }
@@ -231,14 +270,14 @@ mod tests {
             heights: vec![heights(1), heights(5)],
             of_upper: [1, 1],
         };
-        assert_eq!(profile.gap_with_upper_at(&grid, [0.0; 2], false), profile.gap(&grid));
+        assert_eq!(profile.gap_with_upper_at(&grid, Place::default(), false), profile.gap(&grid));
         let of = |shape: Shape, heights: Heights| Profile {
             shapes: vec![shape],
             heights: vec![heights],
             of_upper: [1, 1],
         };
         let upper = of(ball, heights(1));
-        let moved = upper.gap_with_upper_at(&grid, [2.0, -1.0], false);
+        let moved = upper.gap_with_upper_at(&grid, Place::shifted([2.0, -1.0]), false);
         let still = upper.gap(&grid);
         for ((i, j), gap) in moved.indexed_iter() {
             match i.checked_sub(2).and_then(|i| still.get((i, j + 1))) {
@@ -248,14 +287,16 @@ mod tests {
         }
         // the sum of both, less the first touch of it without a shift
         let lower = Profile { of_upper: [0, 0], ..of(bed, heights(5)) };
-        let both = profile.gap_with_upper_at(&grid, [2.0, -1.0], false);
-        let [one, other] =
-            [&upper, &lower].map(|profile| profile.gap_with_upper_at(&grid, [2.0, -1.0], false));
+        let both = profile.gap_with_upper_at(&grid, Place::shifted([2.0, -1.0]), false);
+        let [one, other] = [&upper, &lower]
+            .map(|profile| profile.gap_with_upper_at(&grid, Place::shifted([2.0, -1.0]), false));
         let less = one[[4, 3]] + other[[4, 3]] - both[[4, 3]];
         for ((i, j), gap) in both.indexed_iter().filter(|(_, gap)| **gap < 1e3) {
             assert!((one[[i, j]] + other[[i, j]] - less - gap).abs() < 1e-14);
         }
         // Repeated, nothing is unknown.
-        assert!(profile.gap_with_upper_at(&grid, [2.3, -1.0], true).iter().all(|gap| *gap < 10.0));
+        assert!(
+            profile.gap_with_upper_at(&grid, Place::shifted([2.3, -1.0]), true).iter().all(|gap| *gap < 10.0)
+        );
     }
 }

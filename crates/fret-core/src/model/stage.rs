@@ -27,9 +27,12 @@ pub struct Stage<M = CellMap> {
     /// What changes of the distance rolled along x and y, if anything.
     #[serde(default, skip_serializing_if = "are_none")]
     pub roll: [Option<StageControl>; 2],
-    /// Whether each increment ends where nothing changes any more as the contact rolls on along x.
+    /// Whether each increment ends where nothing changes any more as the contact rolls on.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub steady: bool,
+    /// The way it then rolls, along x and y: a direction of any length.
+    #[serde(default = "along_x", skip_serializing_if = "is_along_x")]
+    pub roll_direction: [f64; 2],
     /// Increments of the stage, or of one cycle, all rows of a table included.
     pub increments: usize,
     /// Each increment is solved in as many parts as this bound on the error of its history asks for (in shares of the way that the
@@ -45,6 +48,15 @@ pub struct Stage<M = CellMap> {
 
 fn are_none(controls: &[Option<StageControl>; 2]) -> bool {
     controls.iter().all(Option::is_none)
+}
+
+/// The way that a contact rolls on where nothing is said of it.
+pub const fn along_x() -> [f64; 2] {
+    [1.0, 0.0]
+}
+
+fn is_along_x(direction: &[f64; 2]) -> bool {
+    *direction == along_x()
 }
 
 fn are_all_none(controls: &[[Option<StageControl>; 2]; 2]) -> bool {

@@ -35,6 +35,10 @@ pub struct DebrisRule {
     pub fraction: f64,
     /// Slip distance over which all but 1/e of the debris of a cell flows out [length]; `None`: nothing does.
     pub outflow_length: Option<f64>,
+    /// Pressure that would press it to nothing if it went on as it begins [pressure]: a layer of thickness b gives by p b over this. `None`: it does
+    /// not give.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stiffness: Option<f64>,
 }
 
 /// Wear by the distance from the open rim of the contact.

@@ -1,7 +1,7 @@
 //! How much memory a run takes: the one place of these numbers. `benches/expected_cost.py` sets them beside what runs took.
 
 use crate::case::{Case, StageControl};
-use crate::model::{SurfaceGrid, Symmetry};
+use crate::model::{DebrisRule, SurfaceGrid, Symmetry};
 use crate::solver::{Coupling, NUMBERS_OF_CYCLE};
 
 /// Bytes of the process itself.
@@ -15,6 +15,8 @@ const WEAR: usize = 50;
 const DEBRIS: usize = 72;
 /// Bytes a cell of what has yielded: its depth in two states, the gap without it and with it.
 const YIELDED: usize = 32;
+/// Bytes a cell of what debris gives by: on the grid, in the region and for the check of the grid.
+const GIVE: usize = 24;
 /// Bytes a cell of what friction dissipates in each: of an increment, and of a part of it.
 const FRICTION_WORK: usize = 16;
 /// Bytes a cell of influence coefficients that are found while those before are in use.
@@ -75,9 +77,9 @@ pub fn of_run(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Sym
         None => WEAR,
         Some(_) => WEAR + THINNING,
     });
-    let has_debris = case.wear.as_ref().is_some_and(|wear| wear.debris.is_some());
-    let worn = worn + if has_debris { DEBRIS } else { 0 };
     let worn = worn + if case.hardness.is_some() { YIELDED } else { 0 };
+    let of_debris = |debris: DebrisRule| DEBRIS + if debris.stiffness.is_some() { GIVE } else { 0 };
+    let worn = worn + case.wear.as_ref().and_then(|wear| wear.debris).map_or(0, of_debris);
     let tells_work = case.output.fields.iter().any(|name| name == "friction_work");
     let worn = worn + if tells_work { FRICTION_WORK } else { 0 };
     let evolving = if case.friction_evolution.is_some() { EVOLVING } else { 0 };

@@ -30,6 +30,7 @@ pub use memory::of_stress as memory_of_stress;
 use moving::{in_whole_cells, moves_along, with_room_to_move};
 pub use simplification::{LeaveOut, Simplification};
 use sliding_extent::with_room_to_slide;
+use symmetry::is_twisted;
 
 /// A case ready to be computed.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -178,6 +179,7 @@ impl Plan {
             .filter(|_| leave_out.takes(Simplification::Transverse));
         // What each body has worn in its own frame is put together like surfaces that move.
         let moves = case.kinematics.is_finite() && case.wear.is_some()
+            || case.kinematics.is_finite() && is_twisted(&case, state)
             || (0..2).any(|axis| moves_along(&case, &grid, axis, state));
         let symmetry = mirrors(&case, &grid, coupling, state, leave_out);
         let single_precision = leave_out.takes(Simplification::Precision)

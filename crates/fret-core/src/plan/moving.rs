@@ -1,8 +1,8 @@
 //! Whether the surfaces of a case move against each other by more than half a hundredth of a cell, and how much room that takes.
 
 use super::loaded::is_loaded;
-use crate::case::{Case, CaseError, walk};
-use crate::model::{ContactState, Control, Frame, LoadStep, Motion, SurfaceGrid};
+use crate::case::{Case, CaseError, Stage, walk};
+use crate::model::{ContactState, Control, Frame, LoadStep, MOST_CELLS, Motion, SurfaceGrid, step_towards};
 
 /// Whether the upper body moves along an axis (0: x, 1: y) by more than positions of surfaces are rounded to, as far as the case tells. Where a
 /// force or a spring moves it, it may.
@@ -34,7 +34,7 @@ pub fn moves_along(case: &Case, grid: &SurfaceGrid, axis: usize, start: Option<&
 /// Whether the contact rolls along an axis (0: x, 1: y).
 pub fn rolls_along(case: &Case, axis: usize) -> bool {
     case.start.is_some_and(|loads| loads.roll[axis] != 0.0)
-        || axis == 0 && case.stages.iter().any(|stage| stage.steady)
+        || case.stages.iter().any(|stage| stage.steady && stage.roll_direction[axis] != 0.0)
         || case.stages.iter().filter_map(|stage| stage.roll[axis].as_ref()).any(|roll| !roll.path().is_zero())
 }
 
@@ -43,6 +43,16 @@ pub fn rolls_along(case: &Case, axis: usize) -> bool {
 /// # Errors
 /// At the size of the grid, which the cells follow from.
 pub fn in_whole_cells(case: &Case, grid: &SurfaceGrid) -> Result<(), CaseError> {
+    let no_step =
+        |stage: &&Stage| stage.steady && step_towards(stage.roll_direction, grid.spacing()).is_none();
+    if let Some(Stage { name, roll_direction, .. }) = case.stages.iter().find(no_step) {
+        let [dx, dy] = grid.spacing();
+        let message = format!(
+            "grid.size: cells of {dx:?} x {dy:?} have no step of at most {MOST_CELLS} of them along each axis in roll_direction = {roll_direction:?} of stage {name:?}; a steady state is rolled to by whole cells"
+        );
+        let help = "roll along an axis, or on square cells in a direction such as [1, 1], [1, -2], [3, 2]; or turn bodies and creepage";
+        return Err(case.refuse_size(message, help));
+    }
     let Some((stage, cells)) = parts_of_cells(case, grid) else { return Ok(()) };
     let message = format!(
         "grid.size: an increment of stage {:?} rolls by {cells:.4} cells; kinematics.frame = \"contact\" moves by whole cells",

@@ -6,7 +6,13 @@ use serde::{Deserialize, Serialize};
 
 use super::wear::Collected;
 use crate::fields::stored;
-use crate::model::DebrisRule;
+use crate::model::{ContactState, DebrisRule, WearRule};
+
+/// By how much the debris of a state gives in each cell under a unit of pressure [length/pressure]; `None` where it does not.
+pub fn give(rule: Option<&WearRule>, state: &ContactState) -> Option<Array2<f64>> {
+    let stiffness = rule?.debris?.stiffness?;
+    state.debris.as_ref().map(|thickness| thickness / stiffness)
+}
 
 /// What becomes debris when a cycle is over.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -223,7 +229,7 @@ mod tests {
     /// `db/dl = s - b/L` with a constant `s` has `b = s L + (b0 - s L) exp(-l/L)`, in one block of cycles or in many; what has come is there or gone.
     #[test]
     fn thickness_relaxes_to_what_comes_by_what_goes() {
-        let rule = DebrisRule { fraction: 0.4, outflow_length: Some(3.0) };
+        let rule = DebrisRule { fraction: 0.4, outflow_length: Some(3.0), stiffness: None };
         let debris = CollectedDebris::nothing(rule, 2.0, ([1, 2], false));
         // worn 5e-3 by a cycle of 0.2 slipped; the other cell does not slip
         let path = Array2::from_shape_vec((1, 2), vec![0.2, 0.0]).unwrap();

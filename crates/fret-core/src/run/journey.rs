@@ -6,6 +6,7 @@ use std::time::Instant;
 use ndarray::Array2;
 
 use super::checkpoint::{Place, Waypoint, solved_state};
+use super::debris::give;
 use super::fretting_loop::{CycleEnd, FrettingLoop, slid};
 use super::moving::{Stepper, upper_wear_over_grid};
 use super::observer::{Iteration, Observer};
@@ -16,6 +17,7 @@ use super::recording::{kept, record, tell_rates, whole};
 use super::records::Records;
 use super::refinement::{DivisionError, Refinement, Span, in_halves};
 use super::run_error::{RunError, run_error, too_thin};
+use super::steady::Onward;
 use super::stepping::StageSteps;
 use super::stiffest_wave::StiffestWave;
 use super::surfaces::{Block, Surfaces};
@@ -251,13 +253,15 @@ impl<'a> Journey<'a> {
             observer.iterated(&Iteration { increment, stage, iteration, residual, tolerance })
         };
         let state = &self.state;
-        let rates = case.stages[stage].rates();
         let mut held = *to;
         let (solved, parts) = match refinement {
             _ if case.stages[stage].steady => {
                 let (end, cells);
+                let at_work = &case.stages[stage];
+                let (rates, direction) = (at_work.rates(), at_work.roll_direction);
+                let onward = Onward { wanted: to, rates, direction };
                 (end, held, cells) =
-                    self.solver.roll_until_steady(state, (to, rates), &mut watch).map_err(failed)?;
+                    self.solver.roll_until_steady(state, onward, &mut watch).map_err(failed)?;
                 (end, cells)
             }
             None => {
@@ -378,6 +382,7 @@ impl<'a> Journey<'a> {
             RunError::WearTooFast { increment, stage: stage.name.clone(), share: too_fast.share }
         })?;
         if let (true, Some(wearing)) = (block.opened, &self.surfaces.wearing) {
+            self.solver.solver.set_give(give(self.plan.case.wear.as_ref(), &self.state));
             self.solver.open_gap(|| wearing.gap(&self.state));
         }
         if block.opened && block.through.is_none() {

@@ -7,10 +7,11 @@ use ndarray::Array2;
 
 use super::pair_compliance::PairCompliance;
 use super::rolling::Rolling;
+use super::steady::Onward;
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance};
-use crate::fields::{Outside, carried};
+use crate::fields::Outside;
 use crate::model::{
-    BEYOND_THE_BODY, Body, ContactPair, ContactState, CoulombFriction, LoadStep, Motion, Profile,
+    BEYOND_THE_BODY, Body, ContactPair, ContactState, CoulombFriction, LoadStep, Motion, Place, Profile,
     SurfaceGrid, Symmetry,
 };
 use crate::plan::{Coupling, Plan};
@@ -46,7 +47,7 @@ pub struct Moving {
     /// Whether a friction law moves.
     moves_friction: bool,
     /// Where the gap that the solver has is that of; `None`: nowhere any more.
-    at: Option<[f64; 2]>,
+    at: Option<Place>,
 }
 
 /// How the upper body alone responds. Bodies that are similar do not couple as a pair; each alone does.
@@ -85,9 +86,10 @@ impl UpperBody {
 
 /// Depth worn off the upper body [length] in the cells over which it lies in a state; `None` where it does not move.
 pub fn upper_wear_over_grid(plan: &Plan, state: &ContactState) -> Option<Array2<f64>> {
-    let cells = Motion::over(&plan.grid).cells(state.shift);
+    let motion = Motion::over(&plan.grid);
+    let over = motion.over_grid(motion.place(state.shift, state.twist));
     let outside = if plan.case.periodic { Outside::Repeats } else { Outside::Zero };
-    state.upper_worn_depth.as_ref().map(|depth| carried(depth, cells, outside))
+    state.upper_worn_depth.as_ref().map(|depth| over.of(depth, outside))
 }
 
 impl Moving {
@@ -134,14 +136,14 @@ impl Moving {
         if self.repeats { Outside::Repeats } else { Outside::Edge }
     }
 
-    /// Undeformed gap where the upper body lies `cells` further along each axis.
-    fn gap_at(&self, state: &ContactState, cells: [f64; 2]) -> Array2<f64> {
-        let gap = self.profile.gap_with_upper_at(&self.grid, cells, self.repeats);
+    /// Undeformed gap where the upper body lies at a place.
+    fn gap_at(&self, state: &ContactState, place: Place) -> Array2<f64> {
+        let gap = self.profile.gap_with_upper_at(&self.grid, place, self.repeats);
         let mut gap = if self.symmetry.any() { self.symmetry.part(&gap) } else { gap };
         let outside = if self.repeats { Outside::Repeats } else { Outside::Zero };
         state.open(&mut gap);
         if let Some(upper) = &state.upper_worn_depth {
-            gap += &carried(upper, cells, outside);
+            gap += &self.motion.over_grid(place).of(upper, outside);
         }
         gap
     }
@@ -159,6 +161,15 @@ impl Moving {
             }
         });
         (to, is_known)
+    }
+
+    /// By how much more the upper surface moves over the grid by an increment of the twist [rad] about its own middle, half-way between two places, than
+    /// about the middle of the grid [length]; `None` where that is no more.
+    fn of_turn(&self, [from, to]: [Place; 2], twist: f64) -> Option<[Array2<f64>; 2]> {
+        let spacing = self.grid.spacing();
+        let [x, y] = [0, 1].map(|axis| 0.5 * (from.cells[axis] + to.cells[axis]) * spacing[axis]);
+        let more = (twist != 0.0 && [x, y] != [0.0; 2]).then_some([twist * y, -twist * x])?;
+        Some(more.map(|along| Array2::from_elem(self.grid.cells(), along)))
     }
 
     /// Whether cells in contact lie beside cells over which nothing is known of the upper body.
@@ -225,20 +236,20 @@ impl<'a> Stepper<'a> {
         self.moving.as_mut().map_or(Ok(()), |moving| moving.set_bodies(plan, bodies))
     }
 
-    /// Rolls along x until nothing changes any more, see [`Rolling::until_steady`].
+    /// Rolls on until nothing changes any more, see [`Rolling::until_steady`].
     ///
     /// # Errors
     /// As there.
     pub fn roll_until_steady(
         &mut self,
         state: &ContactState,
-        wanted: (&LoadStep, [Option<f64>; 3]),
+        onward: Onward<'_>,
         watch: IterationCallback<'_>,
     ) -> Result<(Increment, LoadStep, usize), SolveError> {
         let Self { solver, rolling, .. } = self;
         match rolling {
-            Some(rolling) => rolling.until_steady(solver, state, wanted, watch),
-            None => solver.step(state, wanted.0, watch).map(|end| (end, *wanted.0, 1)),
+            Some(rolling) => rolling.until_steady(solver, state, onward, watch),
+            None => solver.step(state, onward.wanted, watch).map(|end| (end, *onward.wanted, 1)),
         }
     }
 
@@ -273,25 +284,26 @@ impl<'a> Stepper<'a> {
             return rolling.step(solver, state, load, watch);
         }
         let Some(moving) = moving else { return solver.step(state, load, watch) };
-        let from = moving.motion.cells(state.shift);
+        let from = moving.motion.place(state.shift, state.twist);
         let (to, is_known) = Moving::prescribed(load, state.shift);
-        let mut cells = moving.motion.cells(to);
+        let twist = load.twist.motion().unwrap_or(state.twist);
+        let mut place = moving.motion.place(to, twist);
         let memory = (!is_known).then(|| solver.memory().clone());
         let gap_before = moving.gap_at(state, from);
         let (mut before, mut work) = (None, Work::default());
         let mut round = 1;
         loop {
-            let by = [0, 1].map(|axis| cells[axis] - from[axis]);
-            let moves = by != [0.0; 2];
-            let gap = moves.then(|| moving.gap_at(state, cells));
-            if moving.at != Some(cells) {
+            let way = moving.motion.between(from, place);
+            let moves = !way.is_none();
+            let gap = moves.then(|| moving.gap_at(state, place));
+            if moving.at != Some(place) {
                 solver.move_gap(gap.as_ref().unwrap_or(&gap_before).clone());
                 if let Some(friction) = &moving.friction {
                     let outside = moving.outside();
-                    let place = |map: &Array2<f64>| carried(map, cells, outside);
-                    solver.set_friction(Cow::Owned(friction.with_maps(place)));
+                    let over = moving.motion.over_grid(place);
+                    solver.set_friction(Cow::Owned(friction.with_maps(|map| over.of(map, outside))));
                 }
-                moving.at = Some(cells);
+                moving.at = Some(place);
             }
             let outside = moving.outside();
             let along = moving.upper.as_mut().filter(|_| moves).map(|upper| {
@@ -300,8 +312,15 @@ impl<'a> Stepper<'a> {
                     work.full_grid_convolutions += 1.0 / moving.symmetry.copies() as f64;
                     upper.displacement(state)
                 });
-                before.each_ref().map(|part| carried(part, by, outside) - part)
+                let [x, y] = way.of_vectors(before.each_ref(), outside);
+                [x - &before[0], y - &before[1]]
             });
+            let of_turn = moving.of_turn([from, place], twist - state.twist);
+            let along = match (along, of_turn) {
+                (Some([x, y]), Some([more_x, more_y])) => Some([x + more_x, y + more_y]),
+                (one, other) => one.or(other),
+            };
+            let by = if way.turns() { [way.farthest(&state.pressure).max(1.0); 2] } else { way.by };
             solver.set_carried(along, gap.map(|gap| gap - &gap_before), by);
             let solved = solver.step(state, load, watch);
             solver.set_carried(None, None, [0.0; 2]);
@@ -310,11 +329,11 @@ impl<'a> Stepper<'a> {
             if moving.touches_unknown(solver.undeformed(), &solved.state.pressure) {
                 return Err(SolveError::ContactAtEdge);
             }
-            let reached = moving.motion.cells(solved.state.shift);
-            let off = (0..2).map(|axis| (reached[axis] - cells[axis]).abs()).fold(0.0, f64::max);
+            let reached = moving.motion.place(solved.state.shift, solved.state.twist);
+            let off = (0..2).map(|axis| (reached.cells[axis] - place.cells[axis]).abs()).fold(0.0, f64::max);
             // Rounded to a hundredth, two places may take turns.
             let takes_turns = round >= TAKING_TURNS && off < 0.015;
-            if is_known || reached == cells || takes_turns {
+            if is_known || reached == place || takes_turns {
                 solved.work = work;
                 return Ok(solved);
             }
@@ -325,7 +344,7 @@ impl<'a> Stepper<'a> {
                 return Err(SolveError::NotConverged { reached: off, iterations: round });
             }
             round += 1;
-            cells = reached;
+            place = reached;
         }
     }
 }

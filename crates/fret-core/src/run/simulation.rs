@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ndarray::Array2;
 
 use super::checkpoint::Checkpoint;
-use super::debris::Debris;
+use super::debris::{Debris, give};
 use super::evolving::Evolving;
 use super::journey::Journey;
 use super::moving::{Moving, Stepper};
@@ -129,6 +129,7 @@ impl<'a> Simulation<'a> {
             state.open(&mut gap);
             solver.set_gap(gap);
         }
+        solver.set_give(give(case.wear.as_ref(), &state));
         let rim = |body: usize| {
             let rule = case.wear.as_ref().and_then(|rule| rule.rim.as_ref());
             rule.map(|rule| OpenRim::new(rule, body, &plan.grid, symmetry))

@@ -1,13 +1,15 @@
 //! The steady state of a contact that rolls on and on: nothing changes any more as seen from the contact.
 //!
-//! Found by marching, in strides that become shorter down to one cell. What a length of the contact leaves of a transient fades away slowly and
+//! Found by marching, in strides that become shorter down to one step of whole cells. What a length of the contact leaves of a transient fades away slowly and
 //! alike: after each, the march goes on from that mean of the last states of which the changes cancel most (Anderson, 1965, J. ACM 12, 547).
 
 use std::cell::Cell;
 
+use ndarray::Axis;
+
 use super::rolling::Rolling;
 use crate::fields::{add_scaled, dot, norm};
-use crate::model::{ContactState, Control, LoadStep};
+use crate::model::{ContactState, Control, LoadStep, step_towards};
 use crate::solver::{ContactSolver, Increment, IterationCallback, SolveError, SolverMemory, Work};
 
 /// How many of the longest strides are a length of the contact.
@@ -15,15 +17,17 @@ const OF_CONTACT: usize = 8;
 /// Last states of which means are taken.
 const STATES: usize = 4;
 /// What is left of a transient, in the shear by the shear, below which it is steady; so many times the bound on the residuals where that is more.
-/// In longer strides than one cell a rougher one.
+/// In longer strides than one step a rougher one for each: what they are off the steady state themselves is more.
 const STEADY: f64 = 1e-5;
 const OF_TOLERANCE: f64 = 100.0;
-const ROUGHLY: f64 = 3e-3;
-/// Bound on the residuals of increments from which others follow before the end.
+const ROUGHLY: f64 = 0.01;
+/// Bound on the residuals of increments from which others follow: before the last lengths, and in these over the bound on what is left of a transient.
+/// The one increment that is told, from there on, keeps to the tolerance. Rougher last lengths spoil the means, and take more of them.
 const ON_THE_WAY: f64 = 1e-4;
+const OF_STEADY: f64 = 0.1;
 /// A length of the contact leaves at least and at the most so much of a transient.
 const LEAVES: [f64; 2] = [0.05, 0.95];
-/// Lengths of the contact, at the most: in strides, and cell by cell.
+/// Lengths of the contact, at the most: in strides, and step by step.
 const MOST_IN_STRIDES: usize = 4;
 const MOST: usize = 100;
 
@@ -35,10 +39,21 @@ struct Trial {
     change: Vec<f64>,
 }
 
+/// What drives a contact that rolls on.
+#[derive(Clone, Copy)]
+pub struct Onward<'a> {
+    /// The forces of this load.
+    pub wanted: &'a LoadStep,
+    /// What is prescribed by distance rolled, along x, y and about z.
+    pub rates: [Option<f64>; 3],
+    /// The way that it rolls, along x and y: a direction of any length.
+    pub direction: [f64; 2],
+}
+
 impl Rolling {
-    /// Rolls along x, from a state to the forces of a load and with what is prescribed by distance rolled (along x, y and about z), until nothing
-    /// changes any more: the end of the last increment, which goes on by one cell, what is prescribed there, and the number of increments made. All
-    /// motions and energies are those of that one increment; what is stored on the way counts as work.
+    /// Rolls on from a state until nothing changes any more: the end of the last increment, which goes on by one step of whole cells, what is
+    /// prescribed there, and the number of increments made. All motions and energies are those of that one increment; what is stored on the way
+    /// counts as work.
     ///
     /// # Errors
     /// As [`Rolling::step`]; that it does not converge, when it does not become steady.
@@ -46,10 +61,10 @@ impl Rolling {
         &mut self,
         solver: &mut ContactSolver<'_>,
         start: &ContactState,
-        (wanted, rates): (&LoadStep, [Option<f64>; 3]),
+        onward: Onward<'_>,
         watch: IterationCallback<'_>,
     ) -> Result<(Increment, LoadStep, usize), SolveError> {
-        let found = self.marched(solver, start, (wanted, rates), watch);
+        let found = self.marched(solver, start, onward, watch);
         solver.set_tolerance(self.tolerance);
         found
     }
@@ -58,14 +73,17 @@ impl Rolling {
         &mut self,
         solver: &mut ContactSolver<'_>,
         start: &ContactState,
-        (wanted, rates): (&LoadStep, [Option<f64>; 3]),
+        onward: Onward<'_>,
         watch: IterationCallback<'_>,
     ) -> Result<(Increment, LoadStep, usize), SolveError> {
-        let (cell, tolerance) = (self.grid.spacing()[0], self.tolerance);
+        let spacing = self.grid.spacing();
+        // A plan has found that there is one.
+        let step = step_towards(onward.direction, spacing).unwrap_or([1, 0]).map(|cells| cells as f64);
+        let tolerance = self.tolerance;
         let bound = STEADY.max(OF_TOLERANCE * tolerance);
         let (work, made) = (Cell::new(Work::default()), Cell::new(0));
-        let mut advance = |solver: &mut ContactSolver<'_>, state: &ContactState, cells: usize| {
-            let load = ahead(wanted, rates, state, cells as f64 * cell);
+        let mut advance = |solver: &mut ContactSolver<'_>, state: &ContactState, steps: usize| {
+            let load = onward.ahead(state, [0, 1].map(|axis| steps as f64 * step[axis] * spacing[axis]));
             let solved = self.step(solver, state, &load, watch)?;
             let mut all = work.get();
             all += solved.work;
@@ -74,28 +92,26 @@ impl Rolling {
             Ok::<_, SolveError>((solved, load))
         };
         // Where the bodies only just touch, a length of the contact is a cell or two.
-        let length = length(start).max(4);
+        let length = length(start, step).max(4);
         let friction = solver.friction().largest();
         let mut state = start.clone();
         let mut off = 1.0;
         let mut stride = (length / OF_CONTACT).max(1);
         loop {
             let is_last = stride == 1;
-            let (enough, most) = if is_last { (bound, MOST) } else { (ROUGHLY, MOST_IN_STRIDES) };
+            let (enough, most) =
+                if is_last { (bound, MOST) } else { (ROUGHLY * stride as f64, MOST_IN_STRIDES) };
             let mut trials: Vec<Trial> = Vec::new();
             let mut off_before = f64::INFINITY;
             'lengths: for number in 0..most {
                 let is_rough = !is_last || number == 0;
-                solver.set_tolerance(if is_rough { tolerance.max(ON_THE_WAY) } else { tolerance });
+                let residual = if is_rough { ON_THE_WAY } else { OF_STEADY * bound };
+                solver.set_tolerance(tolerance.max(residual));
                 let from = numbers(&state, friction);
-                let mut last = None;
                 for _ in 0..length.div_ceil(stride) {
                     let memory = solver.memory().clone();
                     match advance(solver, &state, stride) {
-                        Ok((mut solved, load)) => {
-                            std::mem::swap(&mut state, &mut solved.state);
-                            last = Some((solved, load));
-                        }
+                        Ok((solved, _)) => state = solved.state,
                         Err(SolveError::NotConverged { .. }) if !is_last => {
                             solver.restore_memory(memory);
                             break 'lengths;
@@ -120,13 +136,14 @@ impl Rolling {
                 let left = if is_last { off * leaves / (1.0 - leaves) } else { off };
                 off_before = off;
                 if left <= enough && !(is_last && is_rough) {
-                    if let (true, Some((mut solved, load))) = (is_last, last) {
-                        let before = std::mem::replace(&mut solved.state, state);
-                        let end = Increment { work: work.get(), ..solved };
-                        let (end, load) = of_one_increment(solver, (start, &before), end, load);
-                        return Ok((end, load, made.get()));
+                    if !is_last {
+                        break;
                     }
-                    break;
+                    solver.set_tolerance(tolerance);
+                    let (solved, load) = advance(solver, &state, 1)?;
+                    let end = Increment { work: work.get(), ..solved };
+                    let (end, load) = of_one_increment(solver, (start, &state), end, load);
+                    return Ok((end, load, made.get()));
                 }
                 trials.push(Trial { end: state.clone(), memory: solver.memory().clone(), change });
                 if trials.len() > STATES {
@@ -145,25 +162,34 @@ impl Rolling {
     }
 }
 
-/// What is prescribed a distance ahead of a state.
-fn ahead(wanted: &LoadStep, rates: [Option<f64>; 3], state: &ContactState, distance: f64) -> LoadStep {
-    let mut load = *wanted;
-    load.roll = [state.roll[0] + distance, state.roll[1]];
-    let on = |rate: Option<f64>, from: f64, control: &mut Control| match (rate, *control) {
-        (Some(rate), _) => *control = Control::Motion(from + rate * distance),
-        (None, Control::Motion(_)) => *control = Control::Motion(from),
-        (None, _) => {}
-    };
-    for axis in 0..2 {
-        on(rates[axis], state.shift[axis], &mut load.tangential[axis]);
+impl Onward<'_> {
+    /// What is prescribed so far ahead of a state along x and y.
+    fn ahead(&self, state: &ContactState, way: [f64; 2]) -> LoadStep {
+        let mut load = *self.wanted;
+        let distance = way[0].hypot(way[1]);
+        load.roll = [0, 1].map(|axis| state.roll[axis] + way[axis]);
+        let on = |rate: Option<f64>, from: f64, control: &mut Control| match (rate, *control) {
+            (Some(rate), _) => *control = Control::Motion(from + rate * distance),
+            (None, Control::Motion(_)) => *control = Control::Motion(from),
+            (None, _) => {}
+        };
+        for axis in 0..2 {
+            on(self.rates[axis], state.shift[axis], &mut load.tangential[axis]);
+        }
+        on(self.rates[2], state.twist, &mut load.twist);
+        load
     }
-    on(rates[2], state.twist, &mut load.twist);
-    load
 }
 
-/// Cells along x that touch.
-fn length(state: &ContactState) -> usize {
-    state.pressure.rows().into_iter().filter(|row| row.iter().any(|p| *p > 0.0)).count()
+/// Steps of so many cells along x and y that the contact is long: of an ellipse that reaches as far as it along both axes.
+fn length(state: &ContactState, step: [f64; 2]) -> usize {
+    let of = [0, 1].map(|axis| {
+        let lanes = state.pressure.axis_iter(Axis(axis));
+        let touching = lanes.filter(|lane| lane.iter().any(|p| *p > 0.0)).count();
+        // The part in front of a mirror is not rolled along.
+        if step[axis] == 0.0 { 0.0 } else { step[axis] / touching as f64 }
+    });
+    (1.0 / of[0].hypot(of[1])).round() as usize
 }
 
 /// Shear, and pressure times the friction coefficient [pressure].

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::rim::OpenRim;
 use super::slip_increment::{add_path, add_wear, path, wear_by_ends};
 use super::stiffest_wave::StiffestWave;
-use crate::fields::{Outside, carried, leaves, stored};
+use crate::fields::{Outside, stored};
 use crate::history::DebrisRecord;
 use crate::model::{ContactState, CoulombFriction, Integration, Motion, WearLaw, WearLayers, WearRule};
 use crate::plan::Plan;
@@ -218,15 +218,15 @@ impl Wearing {
         (motion, repeats): (Motion, bool),
     ) -> Result<[Array2<f64>; 2], SolveError> {
         let outside = if repeats { Outside::Repeats } else { Outside::Zero };
-        let back = states.map(|state| motion.cells(state.shift).map(|cells| -cells));
+        let back = states.map(|state| motion.back_from(motion.place(state.shift, state.twist)));
         let worn = self.by_ends(states, integration);
         for (worn, back) in worn.iter().zip(back) {
-            if !repeats && leaves(worn, back) {
+            if !repeats && back.leaves(worn) {
                 return Err(SolveError::ContactAtEdge);
             }
-            self.collected.wear += &carried(worn, back, outside);
+            self.collected.wear += &back.of(worn, outside);
         }
-        self.collected.path += &carried(&path(states, integration), back[1], outside);
+        self.collected.path += &back[1].of(&path(states, integration), outside);
         Ok(worn)
     }
 

@@ -27,6 +27,7 @@ impl ContactSolver<'_> {
             return Ok(gap);
         }
         let coupled = self.coupling == Coupling::Coupled;
+        let give = if self.full_grid.is_none() { self.give_in(whole) } else { Vec::new() };
         let operator = match &mut self.full_grid {
             Some(operator) => operator,
             none => {
@@ -37,7 +38,8 @@ impl ContactSolver<'_> {
                     symmetry: self.symmetry,
                     ..OperatorSet::default()
                 };
-                let operator = SpectralCompliance::new(self.response.get(), cells, operators)?;
+                let mut operator = SpectralCompliance::new(self.response.get(), cells, operators)?;
+                operator.set_give(give);
                 none.insert(operator.working_in(&self.workspace))
             }
         };

@@ -277,11 +277,14 @@ impl ContactSolver<'_> {
             && operators.region.shape == region.shape
         {
             operators.region = region;
+            operators.compliance.set_give(self.give_in(region));
             self.response.give_back();
             return Ok(operators);
         }
         let (waves, operators) = (self.waves(), self.operator_set());
-        let operators = RegionOperators::new(self.response.get(), waves, region, operators, &self.workspace)?;
+        let mut operators =
+            RegionOperators::new(self.response.get(), waves, region, operators, &self.workspace)?;
+        operators.compliance.set_give(self.give_in(region));
         // Hardly another region follows one that is this large, and nowhere is memory scarcer than in it.
         if 2 * region.len() > self.grid.len() {
             self.response.give_back();

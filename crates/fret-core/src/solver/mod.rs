@@ -122,6 +122,8 @@ pub struct ContactSolver<'a> {
     /// The pressure at which the softer surface yields [pressure], and the gap without tilt before anything has yielded.
     hardness: Option<f64>,
     unyielded: Option<Array2<f64>>,
+    /// By how much what lies between the surfaces gives under a unit of pressure [length/pressure].
+    give: Option<Array2<f64>>,
     /// What moving surfaces add to the displacement before the next increment [length], and the cells that the contact may move by in it.
     carried: Option<[Array2<f64>; 2]>,
     /// What friction has dissipated in the cells in the increment at work, where it is asked for.
@@ -169,6 +171,7 @@ impl<'a> ContactSolver<'a> {
             level: None,
             hardness: None,
             unyielded: None,
+            give: None,
             carried: None,
             friction_work: None,
             travel: 0,
@@ -270,6 +273,21 @@ impl<'a> ContactSolver<'a> {
         let tilt = std::mem::take(&mut self.tilt);
         self.level = None;
         self.set_tilt(tilt);
+    }
+
+    /// Goes on with something between the surfaces that gives in each cell by so much under a unit of pressure [length/pressure], shape of the grid:
+    /// the displacements known so far hold no longer.
+    pub fn set_give(&mut self, give: Option<Array2<f64>>) {
+        if self.give != give {
+            self.give = give;
+            self.full_grid = None;
+            self.forget_displacements();
+        }
+    }
+
+    /// What gives in the cells of a region [length/pressure]; nothing where nothing does.
+    fn give_in(&self, region: Region) -> Vec<f64> {
+        self.give.as_ref().map_or_else(Vec::new, |give| region.gather(give))
     }
 
     /// The undeformed gap in force [length].

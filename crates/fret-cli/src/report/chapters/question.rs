@@ -169,7 +169,10 @@ fn wear(view: &Overview<'_>, wear: &WearRule) -> String {
         let flows = debris.outflow_length.map_or("none flows out".to_owned(), |length| {
             format!("all but 1/e flows out in a slip distance of {}", view.given(length, "length"))
         });
-        parts.push(format!("{} of it stays as debris, of which {flows}", given(debris.fraction)));
+        let gives = debris.stiffness.map_or(String::new(), |modulus| {
+            format!("; it gives by pressure x thickness over {}", view.given(modulus, "pressure"))
+        });
+        parts.push(format!("{} of it stays as debris, of which {flows}{gives}", given(debris.fraction)));
     }
     if let Some(rim) = &wear.rim {
         let [lower, upper] = rim.interior;
@@ -277,6 +280,10 @@ fn stage(view: &Overview<'_>, stage: &Stage<MapSummary>) -> Markup {
             let stress = format!("bulk stress {name} of the {which} body");
             add(&stage.bulk_stress[body][axis], [&stress, &stress], ["pressure", "pressure"]);
         }
+    }
+    if stage.steady {
+        let [x, y] = stage.roll_direction.map(given);
+        parts.push(format!("rolled on along [{x}, {y}] until steady"));
     }
     let increments = counted(stage.increments, "increment");
     let course = match &stage.course {

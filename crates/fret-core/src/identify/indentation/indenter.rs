@@ -6,6 +6,7 @@ use super::request::Numbers;
 use crate::case::{Case, Course, GridSize, Output, Path, Stage, StageControl};
 use crate::history::Warning;
 use crate::model::Shape;
+use crate::model::stage::along_x;
 use crate::plan::Plan;
 use crate::run::{Silent, Simulation};
 use crate::sensitivity::{Direction, Request, SensitivityError, gradient};
@@ -107,6 +108,7 @@ impl<'a> Indenter<'a> {
             bulk_stress: [[None, None], [None, None]],
             roll: [None, None],
             steady: false,
+            roll_direction: along_x(),
             increments: self.depths.len(),
             history_tolerance: None,
             course: Course::Linear,
