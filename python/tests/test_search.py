@@ -91,6 +91,13 @@ QUERIES = {
     "PyTorch": {"do/sensitivities.html"},
     "examples": {"examples.html"},
     "licence": {"faq.html"},
+    "friction coefficient": {"do/vary-friction.html"},
+    "coating thickness": {"do/describe-the-bodies.html", "do/graded-coatings.html"},
+    "python sweep": {"do/sweep.html"},
+    "Hertz pressure": {"learn/hertz-then-a-coating.html", "reference/closed-forms.html"},
+    "spreadsheet": {"do/read-results.html"},
+    "methods section": {"cite.html", "do/publication-figures.html"},
+    "how many cycles until steady": {"do/load-the-contact.html", "learn/wear.html"},
 }
 """Queries, and the pages that answer them: one of these has to come first."""
 
