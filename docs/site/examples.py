@@ -8,9 +8,11 @@ hash of its case and of the files that the case names. Tests compare page and ha
 """
 
 import ast
+import csv
 import hashlib
 import json
 import re
+import subprocess
 import sys
 import tempfile
 import tomllib
@@ -33,7 +35,7 @@ search:
 
 Every case file of `examples/`, with what it shows. `fret run FILE` solves it, `fret report` of its folder of results makes a page with pictures, `fret explore FILE` gives it sliders; figures with their scripts are in the [gallery](gallery.md).
 
-A thumbnail has the loop of the last cycle or the path of the load on the left (sweeps: their result), on the right, at the largest load, stick (blue) and slip (orange), else the contact pressure, dark to bright; of line contacts pressure and shear along x; of wear the worn depth.
+A thumbnail has the loop of the last cycle or the path of the load on the left (sweeps: their result), on the right, at the largest load, stick (blue) and slip (orange), else the contact pressure, dark to bright; of line contacts pressure and shear along x; of wear the wear depth.
 """
 
 Case = dict[str, Any]
@@ -188,7 +190,8 @@ def draw(name: str) -> None:
         figure, axes = plt.subplots(1, 2)
         (_sweep if "axes" in case else _history)(name, case, axes)
         for panel in axes:
-            panel.set(xlabel="", ylabel="", xticks=[], yticks=[], title="")
+            panel.set(xlabel="", ylabel="", title="")
+            panel.tick_params(which="both", bottom=False, left=False, labelbottom=False, labelleft=False)
             for text in (panel.xaxis.offsetText, panel.yaxis.offsetText):
                 text.set_visible(False)
             if panel.get_legend():
@@ -253,28 +256,28 @@ def _beside(case: Case, folder: Path) -> Case:
 
 
 def _sweep(name: str, case: Case, axes: Any) -> None:
-    """Draw what comes out over the axes of a sweep."""
-    import subprocess
-
-    import numpy as np
-
+    """Draw the sliding condition over the axes of a sweep, and what comes out along the last axis."""
     import fretting
 
-    left, right = axes
-    x, y = list(case["axes"])[::-1]
+    slow, fast = case["axes"]
     with tempfile.TemporaryDirectory() as folder:
         call = [sys.executable, "-m", "fretting", "sweep", str(EXAMPLES / name), "--out", f"{folder}/sweep", "--quiet"]
         subprocess.run(call, check=True)
-        table = np.genfromtxt(f"{folder}/sweep/summary.csv", delimiter=",", names=True, dtype=None, encoding="utf-8")
-    print(table.dtype.names, x, y)
-    regimes = [name for name, _ in fretting.plot.REGIMES]
+        with Path(folder, "sweep", "summary.csv").open(encoding="utf-8", newline="") as table:
+            points = [{key.partition(" [")[0]: value for key, value in row.items()} for row in csv.DictReader(table)]
+    map_of, curves = axes
     colours = dict(fretting.plot.REGIMES)
-    assert regimes
-    heads = list(table.dtype.names)
-    condition = next(head for head in heads if head.startswith("cycle_regime"))
-    a, b = table[heads[1]], table[heads[0]]
-    left.scatter(a, b, c=[colours[word] for word in table[condition]], s=22, edgecolors="0.5", linewidths=0.3)
-    left.set(xscale="log" if a.min() > 0 and a.max() / a.min() > 5 else "linear")
+    across, up = ([float(point[axis]) for point in points] for axis in (fast, slow))
+    shown = [colours[point["cycle_regime"]] for point in points]
+    map_of.scatter(across, up, c=shown, s=26, edgecolors="0.4", linewidths=0.3)
+    what = next(key for key in ("smith_watson_topper_cycles", "cycle_dissipated_energy") if key in points[0])
+    for value in dict.fromkeys(point[slow] for point in points):
+        line = [point for point in points if point[slow] == value]
+        curves.plot([float(point[fast]) for point in line], [float(point[what]) for point in line])
+    curves.set_yscale("log")
+    for panel in axes:
+        if max(across) > 5 * min(across):
+            panel.set_xscale("log")
 
 
 if __name__ == "__main__":
