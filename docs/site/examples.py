@@ -35,7 +35,7 @@ search:
 
 Every case file of `examples/`, with what it shows. `fret run FILE` solves it, `fret report` of its folder of results makes a page with pictures, `fret explore FILE` gives it sliders; figures with their scripts are in the [gallery](gallery.md).
 
-A thumbnail has the loop of the last cycle or the path of the load on the left (sweeps: their result), on the right, at the largest load, stick (blue) and slip (orange), else the contact pressure, dark to bright; of line contacts pressure and shear along x; of wear the wear depth.
+A thumbnail has the loop or the path of the load on the left (one increment and rolling: pressure, and shear, along x); on the right, at the largest load, stick (blue) and slip (orange), else the contact pressure, dark to bright; of line contacts pressure (blue) and shear along x; of wear the wear depth. Of sweeps: sliding conditions over both axes, and lives or dissipated energy along one.
 """
 
 Case = dict[str, Any]
@@ -217,25 +217,29 @@ def _history(name: str, case: Case, axes: Any) -> None:
     left, right = axes
     columns = history.increments
     moves = {"x": "tangential_force_x", "y": "tangential_force_y", "twist": "twist_moment"}
-    if any(np.ptp(columns[column]) > 0.0 for column in moves.values()):
-        fretting.plot.loop(history, ax=left)
-    else:
-        left.plot(columns["approach"], columns["normal_force"])
     kept = np.array(history.kept_increments)
     force = sum(columns[column] ** 2 for column in list(moves.values())[:2]) + columns["twist_moment"] ** 2
     chosen = int(kept[force[kept].argmax()]) if force.any() else int(kept[columns["normal_force"][kept].argmax()])
+    moved = any(np.ptp(columns[column]) > 0.0 for column in moves.values())
+    if len(history) == 1 or any("roll" in stage for stage in case["load"]):
+        fretting.plot.section(history, ("pressure", "shear_x") if moved else "pressure", chosen, ax=left)
+    elif moved:
+        fretting.plot.loop(history, ax=left)
+    else:
+        left.plot(columns["approach"], columns["normal_force"])
+    zones = set(np.unique(history.field("zone", chosen)))
     if "wear" in case:
         fretting.plot.field(history, "worn_depth", ax=right)
     elif history.is_line:
         fretting.plot.section(history, ("pressure", "shear_x"), chosen, ax=right)
-    elif (history.field("zone", chosen) == 2).any():
+    elif {1, 2} <= zones:
         fretting.plot.zones(history, chosen, ax=right)
     else:
         fretting.plot.field(history, "pressure", chosen, ax=right)
     for bar in axes[0].figure.axes[2:]:
         bar.remove()
-    if not history.is_line:
-        right.set_aspect("equal")
+    long, short = sorted((np.ptp(history.x), np.ptp(history.y)), reverse=True)
+    right.set_aspect("equal" if short > 0.4 * long else "auto")
 
 
 def _beside(case: Case, folder: Path) -> Case:
@@ -276,8 +280,9 @@ def _sweep(name: str, case: Case, axes: Any) -> None:
         curves.plot([float(point[fast]) for point in line], [float(point[what]) for point in line])
     curves.set_yscale("log")
     for panel in axes:
-        if max(across) > 5 * min(across):
-            panel.set_xscale("log")
+        panel.set_xscale("log" if max(across) > 5 * min(across) else "linear")
+    map_of.set_yscale("log" if max(up) > 5 * min(up) else "linear")
+    map_of.margins(0.15)
 
 
 if __name__ == "__main__":
