@@ -12,7 +12,7 @@ import numpy.typing as npt
 import traitlets
 
 from fretting import plot
-from fretting._meaning import in_units, label, unit
+from fretting._meaning import VECTORS, in_units, label, unit
 from fretting._style import BLUE, VERMILION
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ class Explorer(anywidget.AnyWidget):
     def _show(self) -> None:
         history, name = self._history, self.field
         increment = history.kept_increments[self.place]
-        values = history.field(name, increment)  # type: ignore[arg-type]
+        values = history.field(name, increment)
         row = {column: history.increments[column][increment] for column in (*TOLD, *self._columns)}
         told = [[column.replace("_", " "), self._told(column, value)] for column, value in row.items()]
         condition = history.increments["regime"][increment].replace("_", " ")
@@ -133,7 +133,7 @@ def _fields(history: "History") -> list[str]:
     """Return the names of what can be shown: fields of one number in each cell."""
     found = []
     for name in history._kept.kept_fields(history.kept_increments[-1]):
-        parts = (f"{name}_x", f"{name}_y") if name in plot.VECTORS else (name,)
+        parts = (f"{name}_x", f"{name}_y") if name in VECTORS else (name,)
         found += [part for part in parts if not (history.is_line and part == "zone")]
     return found
 
