@@ -39,6 +39,7 @@ body { background: #fff; }
 .manual table:not([class]) :is(th, td) { min-width: 5em; padding: 2pt 4pt; overflow-wrap: break-word; }
 .manual table:not([class]) td:first-child code { white-space: nowrap; }
 .manual img { max-height: 105mm; }
+.manual td > img[src*="pictures/examples/"] { width: 42mm; }
 .manual .contents a { color: inherit; }
 .manual .contents li { margin: 0; }
 .manual :is(h1, h2, h3, h4) { break-after: avoid; }
