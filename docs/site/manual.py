@@ -158,10 +158,10 @@ def printed(site: Path, out: Path) -> None:
     try:
         with sync_playwright() as playwright, served(site) as address:
             own = Path(playwright.chromium.executable_path)
-            there = own.exists() or browser()
-            if not there:
+            path = own if own.exists() else browser()
+            if path is None:
                 raise SystemExit("no browser: playwright install chromium, or a chromium on the path")
-            chromium = playwright.chromium.launch(executable_path=None if own.exists() else browser())
+            chromium = playwright.chromium.launch(executable_path=path)
             page = chromium.new_page()
             page.goto(f"{address}/{file.name}", wait_until="load", timeout=120_000)
             out.parent.mkdir(parents=True, exist_ok=True)

@@ -39,9 +39,12 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return site
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    """Return a browser without a window; tests that want one are skipped where there is none."""
+    """Return a browser without a window; tests that want one are skipped where there is none.
+
+    It ends with the file of the tests: as long as it is open an event loop runs, which others may want.
+    """
     api = pytest.importorskip("playwright.sync_api", reason="no browser is driven: pip install playwright")
     names = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
     with api.sync_playwright() as playwright:
