@@ -15,6 +15,7 @@ from latex2mathml.converter import convert
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples"
 LINK = re.compile(r"(!?)\[([^\]]*)\]\((\.\./[^)#\s]*)(#[^)]*)?\)")
+PICTURE = re.compile(r'(<img alt="[^"]*" src="((?:\.\./)?pictures/[\w-]+\.(?:png|svg))" />)')
 FORMULA = re.compile(r'<(span|div) class="arithmatex">\\([(\[])(.*?)\\[)\]]</\1>', re.DOTALL)
 
 
@@ -60,6 +61,8 @@ def on_page_content(content: str, page: Any, **_: object) -> str:
         return f'<div class="formula">{written}</div>' if display == "block" else written
 
     content = FORMULA.sub(drawn, content)
+    # A picture opens by itself, as large as it is: on a phone its letters are small.
+    content = PICTURE.sub(r'<a href="\2">\1</a>', content)
     if _is_tutorial(page.file.src_path) and "```python" in page.markdown:
         name = Path(page.file.src_path).stem
         content += f'<p><a href="{name}.ipynb" download>This page as a notebook</a></p>'
@@ -77,8 +80,12 @@ def on_post_build(config: Any) -> None:
 
 
 def notebook(markdown: str) -> dict[str, Any]:
-    """Return a page as a Jupyter notebook: Python snippets as code, case files written, the rest as text."""
-    text = re.sub(r"<!--.*?-->", "", markdown, flags=re.DOTALL)
+    """Return a page as a Jupyter notebook: Python snippets as code, case files written, the rest as text.
+
+    It is read away from the site: links into it are words, and figures are those that its own code draws.
+    """
+    text = re.sub(r"<!-- figure .*?<!-- end -->|<!--.*?-->", "", markdown, flags=re.DOTALL)
+    text = re.sub(r"\[([^\]]*)\]\((?![a-z]+:)[^)]*\)", r"\1", text)
     text = re.sub(r"^```toml\n# ([\w.-]+\.toml)\n", r"```python\n%%writefile \1\n", text, flags=re.MULTILINE)
     cells: list[dict[str, Any]] = []
     for number, part in enumerate(re.split(r"^```python\n(.*?)^```$", text, flags=re.MULTILINE | re.DOTALL)):
