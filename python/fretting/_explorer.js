@@ -1,7 +1,7 @@
 // Loop and field of a history beside each other, with a slider over the increments whose fields are kept. Python says what is drawn:
 // `setting` does not change, `seen` belongs to the place of the slider and the field.
 const SIDE = 240;
-const ROOM = { left: 58, right: 8, top: 8, bottom: 40 };
+const ROOM = { left: 66, right: 8, top: 8, bottom: 40 };
 
 const make = (kind, parent, words = "") => {
   const made = document.createElement(kind);
@@ -16,7 +16,10 @@ const draw = (kind, parent, marks, words = "") => {
   parent.append(made);
   return made;
 };
-const printed = (value) => String(Number(value.toPrecision(3)));
+const printed = (value) => {
+  const rounded = Number(value.toPrecision(3));
+  return rounded !== 0 && Math.abs(rounded) < 1e-3 ? rounded.toExponential() : String(rounded);
+};
 const reach = (values) => {
   const [low, high] = [Math.min(...values), Math.max(...values)];
   const room = (high - low || Math.abs(high) || 1) * 0.05;
@@ -52,6 +55,9 @@ const picture = (parent, name) => {
 export default {
   render({ model, el }) {
     const setting = model.get("setting");
+    // Keys belong to slider and choice while they have the focus: JupyterLab would take arrows for the way from cell to cell.
+    el.dataset.lmSuppressShortcuts = "true";
+    el.addEventListener("keydown", (event) => event.stopPropagation());
     const head = make("div", el);
     head.style.cssText = "display: flex; flex-wrap: wrap; gap: .4rem 1rem; align-items: center";
     const label = make("label", head, "increment ");

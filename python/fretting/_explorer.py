@@ -146,13 +146,18 @@ def _path(history: "History", along: plot.Motion | None) -> tuple[str, str]:
     return motion, force
 
 
+def _axis(history: "History", column: str) -> str:
+    """Return the label of an axis of the path."""
+    return plot._loop_label(history, column) if column in plot._LOOP_LABELS else label(column, history._units)
+
+
 def _setting(history: "History", columns: tuple[str, str]) -> dict[str, Any]:
     """Return what does not change while the slider moves."""
     motion, force = (history.increments[column] for column in columns)
     length = in_units("length", history._units)
     return {
         "path": np.column_stack([motion, force]).tolist(),
-        "axes": [label(column, history._units) for column in columns],
+        "axes": [_axis(history, column) for column in columns],
         "stages": list(history.stages),
         "kept": list(history.kept_increments),
         "fields": _fields(history),
