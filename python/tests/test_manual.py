@@ -39,7 +39,8 @@ def test_every_page_of_the_menu_is_in_the_manual_and_every_link_leads_to_a_place
 @pytest.mark.long
 def test_a_browser_prints_the_manual(site: Path, browser: Any, tmp_path: Path) -> None:
     assert browser.is_connected()
-    call = [sys.executable, ROOT / "docs" / "site" / "manual.py", "--site", site, "--out", tmp_path / "manual.pdf"]
+    script = str(ROOT / "docs" / "site" / "manual.py")
+    call = [sys.executable, script, "--site", str(site), "--out", str(tmp_path / "manual.pdf")]
     subprocess.run(call, check=True, timeout=600)
     printed = (tmp_path / "manual.pdf").read_bytes()
     assert printed.startswith(b"%PDF") and len(printed) > 1_000_000
