@@ -10,6 +10,7 @@ hash of its case and of the files that the case names. Tests compare page and ha
 import ast
 import csv
 import hashlib
+import html
 import json
 import re
 import subprocess
@@ -143,7 +144,11 @@ def _pages() -> dict[str, list[tuple[str, str]]]:
 def _plain(words: str) -> str:
     """Return words as Markdown that shows them as they are; code stays code."""
     parts = re.split(r"(`[^`]*`)", words)
-    return "".join(part if part.startswith("`") else re.sub(r"([*_|\[\]<>])", r"\\\1", part) for part in parts)
+    shown = [
+        part if part.startswith("`") else re.sub(r"([*_|\[\]])", r"\\\1", html.escape(part, quote=False))
+        for part in parts
+    ]
+    return "".join(shown)
 
 
 def fingerprint(name: str) -> str:
