@@ -59,6 +59,8 @@ def main() -> None:
     parser.add_argument("--cells", default="64")
     parser.add_argument("--fret", default="fret")
     arguments = parser.parse_args()
+    if hasattr(os, "getloadavg"):
+        print(f"load of the machine at the start: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
     for case in arguments.cases:
         call = [arguments.fret, "explore", case, "--cells", arguments.cells]
         with subprocess.Popen(call, stdout=subprocess.PIPE, text=True) as served:

@@ -1,17 +1,21 @@
-"""What the site does beyond mkdocs: unlisted pages, links out of the pages, formulas without a network, tutorials as
-notebooks.
+"""What the site does beyond mkdocs: unlisted pages, links out of the pages, examples to download, formulas without a
+network, tutorials as notebooks.
 """
 
 import html
 import json
+import os
 import re
+import shutil
 from pathlib import Path
 from typing import Any
 
 from latex2mathml.converter import convert
 
 ROOT = Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "examples"
 LINK = re.compile(r"(!?)\[([^\]]*)\]\((\.\./[^)#\s]*)(#[^)]*)?\)")
+PICTURE = re.compile(r'(<img alt="[^"]*" src="((?:\.\./)?pictures/[\w-]+\.(?:png|svg))" />)')
 FORMULA = re.compile(r'<(span|div) class="arithmatex">\\([(\[])(.*?)\\[)\]]</\1>', re.DOTALL)
 
 
@@ -28,7 +32,9 @@ def on_config(config: Any) -> Any:
 
 
 def on_page_markdown(markdown: str, page: Any, **_: object) -> str:
-    """Name files outside the pages instead of linking them; they must be there."""
+    """Name files outside the pages instead of linking them, but for examples, which the site has; they must be there."""
+    if page.file.src_path.startswith(("developers/", "releases/")):
+        page.meta.setdefault("search", {"boost": 0.2})  # users search for their own words
     here = Path(page.file.abs_src_path).parent
 
     def name(link: re.Match[str]) -> str:
@@ -37,6 +43,9 @@ def on_page_markdown(markdown: str, page: Any, **_: object) -> str:
             return link[0]
         if not target.exists():
             raise FileNotFoundError(f"{page.file.src_path} links to {link[3]}, which is not there")
+        if target.is_file() and EXAMPLES in target.parents:
+            address = Path(os.path.relpath(target, (ROOT / page.file.src_path).parent))
+            return f'<a href="{address.as_posix()}" download>{_as_code(link[2])}</a>'
         words = "" if link[2].strip("`") == target.relative_to(ROOT).as_posix() else f"{link[2]} "
         return f"{words}(`{target.relative_to(ROOT).as_posix()}`)"
 
@@ -52,6 +61,8 @@ def on_page_content(content: str, page: Any, **_: object) -> str:
         return f'<div class="formula">{written}</div>' if display == "block" else written
 
     content = FORMULA.sub(drawn, content)
+    # A picture opens by itself, as large as it is: on a phone its letters are small.
+    content = PICTURE.sub(r'<a href="\2">\1</a>', content)
     if _is_tutorial(page.file.src_path) and "```python" in page.markdown:
         name = Path(page.file.src_path).stem
         content += f'<p><a href="{name}.ipynb" download>This page as a notebook</a></p>'
@@ -59,7 +70,8 @@ def on_page_content(content: str, page: Any, **_: object) -> str:
 
 
 def on_post_build(config: Any) -> None:
-    """Write the tutorials as notebooks beside their pages; the tests run the same snippets."""
+    """Put the examples beside the pages, and the tutorials as notebooks; the tests run the same snippets."""
+    shutil.copytree(EXAMPLES, Path(config["site_dir"]) / EXAMPLES.name, dirs_exist_ok=True)
     for source in sorted((Path(config["docs_dir"]) / "learn").glob("*.md")):
         text = source.read_text(encoding="utf-8")
         if "```python" in text:
@@ -68,8 +80,12 @@ def on_post_build(config: Any) -> None:
 
 
 def notebook(markdown: str) -> dict[str, Any]:
-    """Return a page as a Jupyter notebook: Python snippets as code, case files written, the rest as text."""
-    text = re.sub(r"<!--.*?-->", "", markdown, flags=re.DOTALL)
+    """Return a page as a Jupyter notebook: Python snippets as code, case files written, the rest as text.
+
+    It is read away from the site: links into it are words, and figures are those that its own code draws.
+    """
+    text = re.sub(r"<!-- figure .*?<!-- end -->|<!--.*?-->", "", markdown, flags=re.DOTALL)
+    text = re.sub(r"\[([^\]]*)\]\((?![a-z]+:)[^)]*\)", r"\1", text)
     text = re.sub(r"^```toml\n# ([\w.-]+\.toml)\n", r"```python\n%%writefile \1\n", text, flags=re.MULTILINE)
     cells: list[dict[str, Any]] = []
     for number, part in enumerate(re.split(r"^```python\n(.*?)^```$", text, flags=re.MULTILINE | re.DOTALL)):
@@ -86,6 +102,12 @@ def notebook(markdown: str) -> dict[str, Any]:
             cells.append({**cell, "cell_type": "markdown"})
     kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
     return {"cells": cells, "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
+
+
+def _as_code(words: str) -> str:
+    """Return words of a link as HTML: in backticks they are code."""
+    plain = html.escape(words.strip("`"))
+    return f"<code>{plain}</code>" if words.startswith("`") else plain
 
 
 def _is_tutorial(path: str) -> bool:

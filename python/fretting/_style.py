@@ -10,7 +10,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
-"""Colours of Okabe and Ito, which the colour-blind can tell apart."""
+"""Colours of Okabe and Ito, which the colour-blind can tell apart; reports have the same."""
+BLUE, VERMILION, _, _, ORANGE, SKY, _ = PALETTE
+OPEN, STICK, PARTIAL, MIXED, SLIP = "#F2F2F2", BLUE, SKY, "#F0E442", ORANGE
+"""Colours of no contact, stick, partial slip, the condition between partial and gross slip, slip."""
 HEIGHT = 0.75
 """Height of a figure over its width."""
 LOOK = {

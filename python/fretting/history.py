@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
 
+    from fretting._explorer import Explorer
     from fretting.case_types import FatigueConstants
 
 
@@ -781,6 +782,42 @@ class History:
     ) -> "FuncAnimation":
         """Animate the loop beside a field; arguments and answer of :func:`fretting.plot.animation`."""
         return plot.animation(self, field, along=along, stage=stage)
+
+    @checked
+    def explore(self, field: FieldName | None = None, *, along: plot.Motion | None = None) -> "Explorer":
+        """Look through the history in a notebook: loop and field of an increment, with a slider over those kept.
+
+        Nothing is solved again; ``fret explore`` has sliders for the numbers of the case. Needs ``fretting[notebook]``.
+
+        Parameters
+        ----------
+        field : str, optional
+            What is shown first. Default: ``"zone"``, of line contacts the first field kept.
+        along : {"x", "y", "twist"}, optional
+            Which motion. Default: the one whose loop is the largest, pressing where nothing else moves.
+
+        Returns
+        -------
+        Explorer
+            A widget of Jupyter; ``place`` is where its slider is, among ``kept_increments``, ``field`` what it shows:
+            both can be set.
+
+        Raises
+        ------
+        ValueError
+            When no fields are kept (``[output] every`` of the case), or not this one.
+        ImportError
+            When anywidget is not installed.
+
+        Examples
+        --------
+        >>> history.explore()  # doctest: +SKIP
+        """
+        try:
+            from fretting._explorer import Explorer
+        except ImportError as error:
+            raise ImportError("a widget needs anywidget: pip install 'fretting[notebook]'") from error
+        return Explorer(self, field, along=along)
 
     def __repr__(self) -> str:
         """Sizes, the last increment, and what is kept."""

@@ -23,7 +23,7 @@ from fretting._bands import band, band_map, loop_band
 from fretting._meaning import VECTORS, ZONE_NAMES, in_units
 from fretting._meaning import label as _label
 from fretting._meaning import unit as _unit
-from fretting._style import scale, style
+from fretting._style import MIXED, OPEN, PARTIAL, SLIP, STICK, VERMILION, scale, style
 
 if TYPE_CHECKING:
     import xarray
@@ -51,11 +51,11 @@ __all__ = [
 Direction = Literal["x", "y"]
 Motion = Literal["x", "y", "twist"]
 
-ZONES = tuple(zip(ZONE_NAMES, ("#f2f2f2", "#0072B2", "#E69F00"), strict=True))
+ZONES = tuple(zip(ZONE_NAMES, (OPEN, STICK, SLIP), strict=True))
 """Names and colours of the zones 0, 1, 2."""
 REGIMES = (
-    ("apart", "#f2f2f2"), ("frictionless", "#d9d9d9"), ("full_stick", "#0072B2"), ("partial_slip", "#56B4E9"),
-    ("mixed", "#F0E442"), ("gross_slip", "#E69F00"),
+    ("apart", OPEN), ("frictionless", "#d9d9d9"), ("full_stick", STICK), ("partial_slip", PARTIAL),
+    ("mixed", MIXED), ("gross_slip", SLIP),
 )  # fmt: skip
 """Names and colours of the sliding conditions, from less to more slip."""
 
@@ -333,7 +333,7 @@ def animation(
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 3.8), layout="constrained")
     motion, force = _loop_columns(history, along, stage)
     loop(history, along=along, stage=stage, ax=left)
-    (dot,) = left.plot([], [], "o", color="#c1121f")
+    (dot,) = left.plot([], [], "o", color=VERMILION)
     frames = [history.field(name, increment) for increment in kept]  # type: ignore[arg-type]
     if name == "zone":
         image = _image(history, frames[0], right, {}, ZONES)

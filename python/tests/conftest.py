@@ -1,5 +1,9 @@
 """What the tests share: the repository's root and the cases they vary."""
 
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +24,37 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     for item in items:
         if "long" in item.keywords:
             item.add_marker(pytest.mark.skip(reason="takes long: --long runs it"))
+
+
+@pytest.fixture(scope="session")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of the built site."""
+    for name in ("mkdocs", "material", "mkdocstrings", "latex2mathml"):
+        pytest.importorskip(name)
+    site = tmp_path_factory.mktemp("site")
+    call = [sys.executable, "-m", "mkdocs", "build", "--quiet", "--site-dir", str(site)]
+    subprocess.run(
+        call, check=True, cwd=ROOT, timeout=120, env={"NO_MKDOCS_2_WARNING": "1", "PATH": ""}, capture_output=True
+    )
+    return site
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    """Return a browser without a window; tests that want one are skipped where there is none.
+
+    It ends with the file of the tests: as long as it is open an event loop runs, which others may want.
+    """
+    api = pytest.importorskip("playwright.sync_api", reason="no browser is driven: pip install playwright")
+    names = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+    with api.sync_playwright() as playwright:
+        own = Path(playwright.chromium.executable_path)
+        path = None if own.exists() else next(filter(None, map(shutil.which, names)), None)
+        if path is None and not own.exists():
+            pytest.skip("no browser: playwright install chromium, or a chromium on the path")
+        opened = playwright.chromium.launch(executable_path=path)
+        yield opened
+        opened.close()
 
 
 @pytest.fixture

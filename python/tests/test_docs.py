@@ -1,6 +1,8 @@
 """What the pages show runs as it stands there, and the site builds without a warning."""
 
+import contextlib
 import importlib.util
+import io
 import json
 import re
 import shlex
@@ -110,17 +112,34 @@ def test_snippets_run_in_their_order(page: Path, tmp_path: Path, monkeypatch: py
     shutil.copytree(ROOT / "examples", tmp_path / "examples")
     monkeypatch.chdir(tmp_path)
     names: dict[str, object] = {"__name__": "page"}
+    printed = io.StringIO()
     for number, (language, text) in enumerate(found, 1):
         if text.startswith(("# with a measurement of your own", "# with a line scan of your own")):
             continue
         if language == "python":
-            exec(compile(text, f"{page.name}, snippet {number}", "exec"), names)
+            with contextlib.redirect_stdout(printed):
+                exec(compile(text, f"{page.name}, snippet {number}", "exec"), names)
         elif language == "toml":
             check_toml(text, tmp_path)
         else:
             run_shell(text, tmp_path)
+    if page.name == "README.md" or page.parent.name == "learn":
+        shown = re.findall(r"^print\(.*\) +# (.*)$", "\n".join(text for _, text in found), re.MULTILINE)
+        for number in re.findall(r"\d+(?:\.\d+)?", " ".join(shown)):
+            assert number in printed.getvalue(), f"the page says {number}, which its code does not print"
     if "matplotlib.pyplot" in sys.modules:
         sys.modules["matplotlib.pyplot"].close("all")
+
+
+def test_notebooks_of_tutorials_lead_nowhere_but_to_the_network() -> None:
+    pytest.importorskip("latex2mathml")
+    hooks = module(ROOT / "docs" / "site" / "hooks.py")
+    tutorials = [page for page in PAGES if page.parent.name == "learn" and "```python" in page.read_text()]
+    assert tutorials
+    for page in tutorials:
+        cells = hooks.notebook(page.read_text(encoding="utf-8"))["cells"]
+        words = "".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "markdown")
+        assert re.findall(r"\]\((?![a-z]+:)[^)]*\)", words) == [], page.name
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())

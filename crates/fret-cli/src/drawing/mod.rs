@@ -12,8 +12,8 @@ pub mod section;
 
 use maud::{Markup, html};
 
-/// The style of pictures: classes and their colours by day.
-pub const STYLE: &str = include_str!("drawing.css");
+/// The style of pictures: the palette by day, and what is drawn in which colour.
+pub const STYLE: &str = concat!(include_str!("palette.css"), include_str!("drawing.css"));
 
 /// A picture, not yet put anywhere.
 #[derive(Debug)]

@@ -26,9 +26,9 @@ const VIRIDIS: [[u8; 3]; 16] = [
 /// Colours of a scale; the last one of the palette is for what has no value, and is clear.
 const LEVELS: usize = 255;
 const CLEAR: u8 = 255;
-/// Colours of stick and of slip; where there is no contact the ground shows.
-const STICK: [u8; 3] = [59, 125, 189];
-const SLIP: [u8; 3] = [224, 161, 58];
+/// Colours of stick and of slip, those of `palette.css`; where there is no contact the ground shows.
+const STICK: [u8; 3] = [0x00, 0x72, 0xb2];
+const SLIP: [u8; 3] = [0xe6, 0x9f, 0x00];
 /// Pixels along a side, at most: what a map of a page can show.
 const FINEST: usize = 160;
 
@@ -146,6 +146,10 @@ mod tests {
         let raster = Raster::of_zones([2, 2], |column, row| [[0.0, 1.0], [2.0, 0.0]][row][column]);
         let seen = seen(&raster);
         assert_eq!((seen[0][3], seen[3][3]), (0, 0));
-        assert_eq!((seen[1], seen[2]), ([59, 125, 189, 255], [224, 161, 58, 255]));
+        let shown = seen[1..3].iter().map(|[r, g, b, cover]| (format!("#{r:02x}{g:02x}{b:02x}"), *cover));
+        for ((colour, cover), name) in shown.zip(["--stick", "--slip"]) {
+            assert!(crate::drawing::STYLE.contains(&format!("{name}: {colour};")), "{name}: {colour}");
+            assert_eq!(cover, 255);
+        }
     }
 }

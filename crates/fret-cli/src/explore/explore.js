@@ -30,9 +30,14 @@ const trouble = (words) => {
   by("trouble").hidden = !words;
   for (const part of [document.querySelector(".seen .figures"), by("numbers")]) part.classList.toggle("stale", Boolean(words));
 };
-const failed = (error) => trouble(error instanceof TypeError
-  ? "fret explore has ended: start it again for another page."
-  : `This was not answered: ${error.message}. "As in the case" starts again.`);
+// Whether what is seen still waits for an answer: readers of the screen are told, and tests wait for it.
+const awaited = (is) => document.querySelector(".seen").setAttribute("aria-busy", String(is));
+const failed = (error) => {
+  trouble(error instanceof TypeError
+    ? "fret explore has ended: start it again for another page."
+    : `This was not answered: ${error.message}. "As in the case" starts again.`);
+  awaited(false);
+};
 const cards = (of) => by("numbers").querySelectorAll(`[data-of="${of}"]`);
 // What a question of a kind has told: its figures and numbers take the place of those before.
 const put = (answer, of) => {
@@ -90,6 +95,7 @@ async function next() {
 }
 const ask = () => {
   waiting = asked();
+  awaited(true);
   for (const part of [by("stress"), ...cards("stress")]) part.classList.add("stale");
   if (!busy) next();
 };
@@ -101,7 +107,9 @@ async function rest() {
   try {
     const answer = await post("stress", question);
     if (answer.status === "superseded") { resting = setTimeout(rest, 150); return; }
-    if (now === JSON.stringify(asked()) && put(answer, "stress")) by("stress").classList.remove("stale");
+    if (busy || now !== JSON.stringify(asked())) return;
+    if (put(answer, "stress")) by("stress").classList.remove("stale");
+    awaited(false);
   } catch (error) {
     failed(error);
   }
