@@ -5,7 +5,7 @@ use fret_core::model::controls::ways;
 use super::key::words_of;
 
 /// Last words of keys that have a unit, and its kind.
-const KINDS: [(&str, &str); 31] = [
+const KINDS: [(&str, &str); 32] = [
     ("size", "length"),
     ("datum", "length"),
     ("thickness", "length"),
