@@ -354,7 +354,7 @@ fn another_history_goes_on_with_the_friction_reached() {
 fn friction_that_changes_much_in_one_cycle_is_told() {
     let warned = |scale: f64| {
         let history = solved(&layer(&format!("by = \"slip_distance\", last = 0.7, scale = {scale:e}"), 3));
-        let names: Vec<_> = history.warnings.iter().map(|warning| warning.name.name()).collect();
+        let names: Vec<_> = history.warnings.iter().map(|warning| warning.name.row().name).collect();
         names.contains(&"friction_changes_in_one_cycle")
     };
     assert!(warned(4.0 * AMPLITUDE));
