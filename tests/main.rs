@@ -19,6 +19,7 @@ mod coupled_friction;
 mod elastic_energy;
 mod error_bars;
 mod evolving_friction;
+mod field_sensitivities;
 mod first_law;
 mod formulas;
 mod fretting_cycles;

@@ -22,7 +22,7 @@ from fretting._core import __version__
 from fretting._points import Parameter
 from fretting.case_types import Case
 from fretting.designing import Design, design
-from fretting.differentiating import gradient, vjp
+from fretting.differentiating import Gradient, NearEvents, gradient, vjp
 from fretting.errors import (
     CaseError,
     DesignError,
@@ -58,12 +58,14 @@ __all__ = [
     "Evaluation",
     "FrettingError",
     "FrettingWarning",
+    "Gradient",
     "History",
     "Identification",
     "Indentation",
     "Lognormal",
     "MissingFileError",
     "Mistake",
+    "NearEvents",
     "Normal",
     "OutOfMemoryError",
     "Parameter",

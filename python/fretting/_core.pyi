@@ -178,7 +178,8 @@ def check_results(of: list[str]) -> None: ...
 def check_derivatives(case: Case, of: list[str], by: list[str]) -> None: ...
 def pulled_back(
     case: Case,
-    weights: list[tuple[str, float]],
+    results: list[tuple[str, float]],
+    fields: list[tuple[str, npt.NDArray[np.float64]]],
     by: list[str],
     threads: int | None,
 ) -> list[tuple[str, float]]: ...

@@ -3,10 +3,36 @@
 import math
 import re
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
 
 from fretting import _case, _core
 from fretting._arguments import mapping, real, texts
+
+
+class NearEvents(NamedTuple):
+    """The increment of a history with most cells that are about to change their state (open, stick, slip)."""
+
+    increment: int
+    """Its number, from 0."""
+    cells: int
+    """Cells within a millionth of another state, by the largest pressure, friction bound or displacement."""
+    contact_cells: int
+    """Cells in contact."""
+
+    @property
+    def share(self) -> float:
+        """Share of such cells in those in contact."""
+        return self.cells / self.contact_cells
+
+
+class Gradient(dict[str, dict[str, float]]):
+    """For every result its ``"value"``, and its derivatives by path; made by :func:`gradient`."""
+
+    near_events: NearEvents | None = None
+    """Where derivatives on either side of the case differ, up to the last increment asked for; None: nowhere."""
 
 
 def gradient(
@@ -15,7 +41,7 @@ def gradient(
     of: str | Iterable[str],
     by: str | Iterable[str] = (),
     threads: int | None = None,
-) -> dict[str, dict[str, float]]:
+) -> Gradient:
     """Differentiate results of a history by numbers of its case, exactly.
 
     Parameters
@@ -35,9 +61,11 @@ def gradient(
 
     Returns
     -------
-    dict of str to dict
-        For every result its ``"value"``, and its derivatives by path, in the units of the case: of the result on the
-        grid that the plan of the case chooses, which does not change with the numbers.
+    Gradient
+        A dict: for every result its ``"value"``, and its derivatives by path, in the units of the case: of the result
+        on the grid that the plan of the case chooses, which does not change with the numbers. Its ``near_events``
+        tells in which increment most cells are within a millionth of another state, how many, and of how many in
+        contact: there derivatives on either side differ.
 
     Raises
     ------
@@ -49,7 +77,10 @@ def gradient(
     RunError
         When the run fails, or the linear equations of an increment are not solved.
     """
-    return told(case, texts("of", of), texts("by", by), threads)[0]
+    found, near = told(case, texts("of", of), texts("by", by), threads)
+    derivatives = Gradient(found)
+    derivatives.near_events = None if near is None else NearEvents(*near)
+    return derivatives
 
 
 def told(
@@ -74,12 +105,12 @@ def near_in_words(near: tuple[int, int, int]) -> str:
 
 def vjp(
     case: _case.CaseLike,
-    weights: Mapping[str, float],
+    weights: Mapping[str, float | npt.NDArray[np.float64]],
     *,
     by: str | Iterable[str] = (),
     threads: int | None = None,
 ) -> dict[str, float]:
-    """Differentiate a weighted sum of results by numbers of a case: pull weights of results back to the numbers.
+    """Differentiate a weighted sum of results and fields by numbers of a case: pull weights back to the numbers.
 
     The product of a vector and the matrix of derivatives that a chain of derivatives asks for (reverse mode). By
     several numbers it is one pass backwards through the history, however many results and numbers there are.
@@ -88,8 +119,10 @@ def vjp(
     ----------
     case : path, str or mapping
         As for :func:`fretting.run`.
-    weights : mapping of str to float
-        The weight of every result, such as the derivatives of a loss by the results.
+    weights : mapping of str to float or array
+        The weight of every result, such as the derivatives of a loss by the results. Of a field its weights in all
+        cells, with the shape of the field: ``"pressure"``, ``"shear_x"`` and ``"shear_y"`` of the last increment, or
+        of another (``"increments[7].pressure"``).
     by : str or iterable of str
         Numbers of the case, as for :func:`gradient`. Default: all there are.
     threads : int, optional
@@ -105,7 +138,8 @@ def vjp(
     CaseError
         When the case is refused.
     ValueError
-        As for :func:`gradient`, and without any weight or with one that is not finite.
+        As for :func:`gradient`; without any weight or with one that is not finite; of a field that has no
+        derivatives here, or with weights of another shape.
     RunError
         As for :func:`gradient`.
 
@@ -123,13 +157,21 @@ def vjp(
     >>> list(found)
     ['profile.sphere.radius']
     """
-    pairs = [(name, real(f"weights[{name!r}]", weight)) for name, weight in mapping("weights", weights).items()]
-    if not pairs:
+    pairs, fields = [], []
+    for name, weight in mapping("weights", weights).items():
+        if isinstance(weight, np.ndarray) and weight.ndim > 0:
+            cells = np.asarray(weight, dtype=np.float64)
+            if cells.ndim > 2:
+                raise ValueError(f"weights[{name!r}]: expected the shape of a field, got {cells.shape}")
+            fields.append((name, cells[:, None] if cells.ndim == 1 else cells))
+            continue
+        number = real(f"weights[{name!r}]", weight)
+        if not math.isfinite(number):
+            raise ValueError(f"weights[{name!r}] = {number}: must be finite")
+        pairs.append((name, number))
+    if not pairs and not fields:
         raise ValueError("weights: of no result; expected such as {'max_pressure': 1.0}")
-    for name, weight in pairs:
-        if not math.isfinite(weight):
-            raise ValueError(f"weights[{name!r}] = {weight}: must be finite")
-    return dict(_core.pulled_back(_case.read(case), pairs, texts("by", by), threads))
+    return dict(_core.pulled_back(_case.read(case), pairs, fields, texts("by", by), threads))
 
 
 def value_of(increments: Mapping[str, Any], cycles: Mapping[str, Any], name: str) -> float:

@@ -685,16 +685,20 @@ class History:
         return heat.contact_resistance(self, increment, kind, threads)
 
     def vjp(
-        self, weights: Mapping[str, float], *, by: str | Iterable[str] = (), threads: int | None = None
+        self,
+        weights: Mapping[str, float | npt.NDArray[np.float64]],
+        *,
+        by: str | Iterable[str] = (),
+        threads: int | None = None,
     ) -> dict[str, float]:
-        """Pull weights of results back to the numbers of the case, see :func:`fretting.vjp`.
+        """Pull weights of results and fields back to the numbers of the case, see :func:`fretting.vjp`.
 
         The history is run once more: the states of all its increments are needed.
 
         Parameters
         ----------
-        weights : mapping of str to float
-            The weight of every result.
+        weights : mapping of str to float or array
+            The weight of every result, or of every cell of a field.
         by : str or iterable of str
             Numbers of the case. Default: all there are.
         threads : int, optional

@@ -56,6 +56,22 @@ def test_derivatives_are_those_of_the_history() -> None:
         assert total == pytest.approx(power * found[name]["value"], abs=1e-6 * abs(found[name]["value"])), name
 
 
+def test_cells_about_to_change_their_state_are_told() -> None:
+    # A force that turns back by a ten-millionth: the cells that slid stick, as near to their bound; before it none is.
+    slid = {"tangential_force": [1.5, 0.0], "increments": 4}
+    back = {"tangential_force": [1.5 * (1 - 1e-7), 0.0], "increments": 1}
+    turned = {**CASE, "load": [CASE["load"][0], slid, back]}
+    history = fretting.run({**turned, "output": {"fields": ["pressure", "zone"], "every": 1}})
+    pressed, slipped = history.field("pressure", 7) > 0, history.field("zone", 7) == 2
+    for by in ("profile.sphere.radius", ["profile.sphere.radius", "friction.coefficient"]):  # forward, backwards
+        near = fretting.gradient(turned, of="max_pressure", by=by).near_events
+        assert near is not None
+        assert near.increment == 8
+        assert (near.cells, near.contact_cells) == (slipped.sum(), pressed.sum())
+        assert near.share == pytest.approx(slipped.sum() / pressed.sum())
+        assert fretting.gradient(turned, of="increments[7].max_pressure", by=by).near_events is None
+
+
 def test_without_names_all_numbers_are_taken() -> None:
     found = fretting.gradient(CASE, of="max_pressure")["max_pressure"]
     paths = {"friction.coefficient", *MODULI, *FORCES, "lower.coatings[0].thickness", "profile.sphere.radius"}
@@ -142,6 +158,23 @@ def test_a_function_of_numbers_refuses_results_without_derivatives() -> None:
         for answer in (function.values, function.differentiated):
             with pytest.raises(ValueError, match=words):
                 answer(np.array([10e-3]))
+
+
+def test_weights_of_fields_are_pulled_back() -> None:
+    # The sum of the tractions times the area of a cell is the force: its derivative by itself is one, by all else none.
+    by = [*FORCES, "lower.coatings[0].thickness"]
+    area = np.full((32, 32), (320e-6 / 32) ** 2)
+    found = fretting.vjp(CASE, {"pressure": 2 * area, "increments[5].shear_x": area, "normal_force": 0.5}, by=by)
+    assert [found[path] for path in FORCES] == pytest.approx([2.5, 1.0], abs=1e-9)
+    assert found[by[2]] * 20e-6 == pytest.approx(0.0, abs=1e-8)
+    for weights, words in (
+        ({"gap": area}, "pressure, shear_x, shear_y"),
+        ({"pressure": area[:5]}, "5 x 32 weights"),
+        ({"pressure": np.ones((2, 2, 2))}, "shape of a field"),
+        ({"pressure": area * math.nan}, "finite"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            fretting.vjp(CASE, weights, by=by)
 
 
 def test_a_history_that_started_from_another_is_not_pulled_back() -> None:

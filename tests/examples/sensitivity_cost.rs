@@ -73,17 +73,19 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
             let (history, run) = timed(|| Ok(Simulation::new(&plan).run(&mut Silent)?))?;
             let steps = history.steps.len() as f64;
             let of_run: usize = history.steps.iter().map(|step| step.work.convolutions).sum();
+            let in_full: f64 = history.steps.iter().map(|step| step.work.full_grid_convolutions).sum();
             let passes: usize = history.steps.iter().map(|step| step.work.preconditioner_passes).sum();
             println!("{cells} x {cells} cells, {steps} increments: {run:.4} s");
             println!(
-                "{:44} {:>7} {:>7} {:>7} {:>7} {:>7}",
-                "per increment", "linear", "others", "const.", "precon.", "time"
+                "{:44} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7}",
+                "per increment", "linear", "others", "in full", "const.", "precon.", "time"
             );
             println!(
-                "{:44} {:7.1} {:>7} {:>7} {:7.1} {:7.2}",
+                "{:44} {:7.1} {:>7} {:7.2} {:>7} {:7.1} {:7.2}",
                 "run",
                 of_run as f64 / steps,
                 "",
+                in_full / steps,
                 "",
                 passes as f64 / steps,
                 1.0
@@ -103,10 +105,11 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
                 let work = found.work;
                 let per = |count: usize| count as f64 / steps;
                 println!(
-                    "{:44} {:7.1} {:7.1} {:7.1} {:7.1} {:7.2}",
+                    "{:44} {:7.1} {:7.1} {:7.2} {:7.1} {:7.1} {:7.2}",
                     format!("{of} by {}, {direction:?}", found.parameters.len()),
                     per(work.of_linear_problems),
                     per(work.others),
+                    work.full_grid_applications / steps,
                     per(work.of_constants),
                     per(work.preconditioner_passes),
                     (all - run) / run

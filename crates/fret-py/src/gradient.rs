@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use fret_core::plan::Plan;
 use fret_core::run::Observer;
-use fret_core::sensitivity::{self, Request, Sensitivities, SensitivityError};
+use fret_core::sensitivity::{self, Request, Sensitivities, SensitivityError, Weights};
+use numpy::PyReadonlyArray2;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::{PyErr, PyResult, Python, pyfunction};
 
@@ -51,15 +52,18 @@ pub fn check_derivatives(py: Python<'_>, case: &Case, of: Vec<String>, by: Vec<S
     sensitivity::check_asked(&plan, &of, &by).map_err(ended)
 }
 
-/// Derivatives of a sum of results, each times its weight, by numbers of a case; by all numbers where none is named.
+/// Derivatives of a sum of results and of the cells of fields, each times its weight, by numbers of a case; by all numbers where none is named.
 #[pyfunction]
 pub fn pulled_back(
     py: Python<'_>,
     case: &Case,
-    weights: Vec<(String, f64)>,
+    results: Vec<(String, f64)>,
+    fields: Vec<(String, PyReadonlyArray2<'_, f64>)>,
     by: Vec<String>,
     threads: Threads,
 ) -> PyResult<Vec<(String, f64)>> {
+    let fields = fields.into_iter().map(|(name, weights)| (name, weights.as_array().to_owned())).collect();
+    let weights = Weights { results, fields };
     let found = found(py, case, threads, |plan, guest| sensitivity::pulled_back(plan, &weights, &by, guest))?;
     let paths = found.parameters.iter().map(|entry| entry.path().to_owned());
     let derivatives = found.gradients.iter().flat_map(|gradient| gradient.by.iter().copied());

@@ -52,7 +52,7 @@ impl<'a> Simulation<'a> {
     }
 
     /// The same with the compliance of its plan, which was made for another one.
-    pub(super) fn with_compliance(self, compliance: Option<Arc<PairCompliance>>) -> Self {
+    pub(crate) fn with_compliance(self, compliance: Option<Arc<PairCompliance>>) -> Self {
         Self { compliance, ..self }
     }
 

@@ -2,6 +2,7 @@
 //! problem for each increment and objective serves all numbers of the case.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use super::change::Change;
 use super::constants::Constants;
@@ -10,15 +11,14 @@ use super::error::SensitivityError;
 use super::events::{NearEvents, near_events};
 use super::forward::change_of_gap;
 use super::increment::{ENOUGH, Increment};
-use super::linearised::Operators;
 use super::loads::Load;
-use super::objective::Row;
+use super::objective::{Column, Row};
+use super::operators::Operators;
 use super::parameter::Parameter;
 use super::replay::Replay;
 use super::scene::{Scene, Snapshot};
 use super::solved::Solved;
 use super::work::Work;
-use crate::compliance::SurfaceCompliance;
 use crate::fields::{add_scaled, dot};
 use crate::model::controls::FREEDOMS;
 use crate::run::{PairCompliance, RunError};
@@ -26,10 +26,11 @@ use crate::run::{PairCompliance, RunError};
 /// Bytes a cell of an increment that is kept: eleven fields and the zone.
 pub(super) const BYTES: usize = 89;
 
-/// An objective: its name, and columns of increments, each with its weight.
+/// An objective: its name, its value, and columns of increments, each with its weight.
 pub(super) struct Target {
     pub of: String,
-    pub columns: Vec<(usize, &'static str, f64)>,
+    pub value: f64,
+    pub columns: Vec<(usize, Column, f64)>,
 }
 
 /// A history that was solved, increment by increment.
@@ -41,9 +42,12 @@ pub(super) struct Past {
 
 impl Past {
     /// Goes through a history; `None` where bodies come apart, or no load changes in an increment: then derivatives go forward.
-    pub fn of(scene: &Scene<'_>, steps: &[Snapshot]) -> Result<Option<Self>, SensitivityError> {
-        let compliance = PairCompliance::of(scene.plan);
-        let mut operators = scene.operators(&compliance.response, compliance.table.as_ref())?;
+    pub fn of(
+        scene: &Scene<'_>,
+        pair: &Arc<PairCompliance>,
+        steps: &[Snapshot],
+    ) -> Result<Option<Self>, SensitivityError> {
+        let mut operators = scene.operators(pair)?;
         let mut replay = Replay::new(scene);
         let mut increments: Vec<(Load, Solved)> = Vec::with_capacity(steps.len());
         for (number, step) in steps.iter().enumerate() {
@@ -140,7 +144,7 @@ pub(super) fn backward(
         let before =
             [1, 2].map(|back| number.checked_sub(back).map_or(&past.start, |at| &past.increments[at].1));
         let increment = Increment::new(scene, (&steps[number].record, load), now, before);
-        let own = past.operators.compliance.self_influence();
+        let own = past.operators.self_influence();
         let near = near_events((scene, now, number), &increment.contact, [own.normal, own.tangential]);
         // The earliest of those with as many, as forward.
         if near.cells > 0 && near.cells >= most.map_or(0, |most| most.cells) {
@@ -153,7 +157,7 @@ pub(super) fn backward(
             continue;
         }
         constants.begin(&now.tractions);
-        let mut equations = increment.equations(&mut past.operators);
+        let mut equations = increment.equations(&mut past.operators)?;
         for (objective, (gathered, target)) in gathered.iter_mut().zip(targets).enumerate() {
             let [after, before, former] = &mut gathered.changes;
             let after = std::mem::replace(after, Change::none(cells));

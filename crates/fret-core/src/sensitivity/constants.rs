@@ -2,7 +2,8 @@
 
 use super::error::SensitivityError;
 use super::forward::response_by;
-use super::linearised::{Fields, displacements};
+use super::linearised::Fields;
+use super::operators::displacements;
 use super::parameter::Parameter;
 use super::scene::Scene;
 use crate::compliance::{CrossSpectra, SpectralCompliance};

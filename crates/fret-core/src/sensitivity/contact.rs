@@ -188,11 +188,11 @@ impl<'a> Contact<'a> {
         given
     }
 
-    /// Backwards: of coefficient and strength, from those of the shear in all cells of the region.
-    pub fn given_transposed(&self, [x, y]: [&[f64]; 2]) -> [f64; 2] {
+    /// Backwards: of coefficient and strength, from those of the tractions in the cells of the contact, packed.
+    pub fn given_transposed(&self, [_, x, y]: &Fields) -> [f64; 2] {
         let mut friction = [0.0; 2];
-        for ((place, cell), does) in self.set.cells().enumerate().zip(&self.cells) {
-            let along = does.along[0] * x[cell] + does.along[1] * y[cell];
+        for (place, does) in self.cells.iter().enumerate() {
+            let along = does.along[0] * x[place] + does.along[1] * y[place];
             for (friction, by) in friction.iter_mut().zip(self.by_friction[place]) {
                 *friction += by * along;
             }

@@ -15,7 +15,7 @@ const NEAR: f64 = 1e-6;
 pub struct NearEvents {
     /// Its number, from 0.
     pub increment: usize,
-    /// How many such cells there are.
+    /// How many such cells the whole contact has.
     pub cells: usize,
     /// How many are in contact.
     pub contact: usize,
@@ -50,5 +50,6 @@ pub(super) fn near_events(
         solved.zone_of(*cell) == Zone::Open && gap < NEAR * own[0] * pressure
     };
     cells += scene.undeformed.iter().enumerate().filter(touches).count();
-    NearEvents { increment, cells, contact: solved.contact.len() }
+    let copies = scene.plan.symmetry.copies();
+    NearEvents { increment, cells: copies * cells, contact: copies * solved.contact.len() }
 }

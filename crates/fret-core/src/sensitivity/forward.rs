@@ -1,6 +1,7 @@
 //! Forward differentiation: the changes by each number, carried from increment to increment of a history that was solved.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use ndarray::Array2;
 
@@ -10,13 +11,13 @@ use super::contact::Drive;
 use super::error::SensitivityError;
 use super::events::{NearEvents, near_events};
 use super::increment::{ENOUGH, Increment};
-use super::linearised::displacements;
+use super::operators::displacements;
 use super::parameter::Parameter;
 use super::replay::{Replay, zones};
 use super::scene::{Scene, Snapshot, field};
 use super::solved::Solved;
 use super::work::Work;
-use crate::compliance::{SpectralCompliance, SurfaceCompliance};
+use crate::compliance::SpectralCompliance;
 use crate::model::controls::FREEDOMS;
 use crate::run::{PairCompliance, RunError};
 
@@ -68,13 +69,12 @@ pub(super) fn change_of_gap(parameter: &Parameter, scene: &Scene<'_>) -> Vec<f64
 /// Goes through a history that was solved, and shows the changes by each number after every increment. Tells where most cells are about to change
 /// their state.
 pub(super) fn forward(
-    scene: &Scene<'_>,
+    (scene, pair): (&Scene<'_>, &Arc<PairCompliance>),
     parameters: &[Parameter],
     steps: &[Snapshot],
     mut visit: impl FnMut((&Snapshot, &Solved), &[&Change]) -> ControlFlow<()>,
 ) -> Result<(Option<NearEvents>, Work), SensitivityError> {
-    let compliance = PairCompliance::of(scene.plan);
-    let mut operators = scene.operators(&compliance.response, compliance.table.as_ref())?;
+    let mut operators = scene.operators(pair)?;
     let mut courses = Vec::with_capacity(parameters.len());
     for parameter in parameters {
         let gap = change_of_gap(parameter, scene);
@@ -100,13 +100,13 @@ pub(super) fn forward(
         if let Some(solved) = next.solved {
             let increment = Increment::new(scene, (&step.record, &next.load), &solved, past.each_ref());
             let near = (!increment.contact.cells.is_empty()).then(|| {
-                let own = operators.compliance.self_influence();
+                let own = operators.self_influence();
                 near_events((scene, &solved, number), &increment.contact, [own.normal, own.tangential])
             });
             if let Some(near) = near.filter(|near| near.cells > most.map_or(0, |most| most.cells)) {
                 most = Some(near);
             }
-            let mut equations = increment.equations(&mut operators);
+            let mut equations = increment.equations(&mut operators)?;
             for (course, numbers) in courses.iter_mut().zip(&numbers) {
                 let drive = course.drive(scene, &solved, stage);
                 let changes = [&course.before, &course.former];

@@ -2,12 +2,16 @@
 //! each result, whichever are fewer.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use ndarray::Array2;
 
 use super::backward::{self, Past, Target};
 use super::error::SensitivityError;
 use super::events::NearEvents;
+use super::field_weights::FieldWeights;
 use super::forward::forward;
-use super::objective::{Objective, Row, value_of};
+use super::objective::{Column, Objective, Row, value_of};
 use super::parameter::Parameter;
 use super::refusals::{check, check_history, check_request};
 use super::scene::{Scene, Snapshot};
@@ -16,7 +20,7 @@ use crate::history::{CycleRecord, KeptFields, StepRecord};
 use crate::machine::memory;
 use crate::model::MirroredState;
 use crate::plan::Plan;
-use crate::run::{Iteration, Observer, RunError, Simulation};
+use crate::run::{Iteration, Observer, PairCompliance, RunError, Simulation};
 
 /// Bytes a cell of a state that is kept: five fields and the zone.
 const STATE: usize = 41;
@@ -78,23 +82,43 @@ pub fn gradient(
     request: &Request,
     observer: &mut dyn Observer,
 ) -> Result<Sensitivities, SensitivityError> {
-    let sums: Vec<Sum> = request.of.iter().map(|name| (name.clone(), vec![(name.clone(), 1.0)])).collect();
+    let sums: Vec<Sum<'_>> = request
+        .of
+        .iter()
+        .map(|name| Sum { of: name.clone(), parts: vec![(name, 1.0)], fields: Vec::new() })
+        .collect();
     derivatives(plan, &sums, (&request.by, request.direction), observer)
 }
 
-/// Derivatives of the sum of results, each times its weight: what a chain of derivatives (reverse mode) passes on to the numbers of the case. `by`,
-/// `direction`: as in a [`Request`].
+/// Weights of what a sum is made of.
+#[derive(Debug, Clone, Default)]
+pub struct Weights {
+    /// Results, named as in a [`Request`].
+    pub results: Vec<(String, f64)>,
+    /// Fields of the whole grid (`pressure`, `increments[7].shear_x`: see [`FIELDS`](super::FIELDS)), each cell with its weight.
+    pub fields: Vec<(String, Array2<f64>)>,
+}
+
+/// Derivatives of the sum of results and of the cells of fields, each times its weight: what a chain of derivatives (reverse mode) passes on to the
+/// numbers of the case. `by`: as in a [`Request`].
 ///
 /// # Errors
-/// As [`gradient`].
+/// As [`gradient`], and when a field is not one whose sum has derivatives, or has not a finite weight for each cell.
 pub fn pulled_back(
     plan: &Plan,
-    weights: &[(String, f64)],
+    weights: &Weights,
     by: &[String],
     observer: &mut dyn Observer,
 ) -> Result<Sensitivities, SensitivityError> {
-    let names: Vec<&str> = weights.iter().map(|(name, _)| name.as_str()).collect();
-    derivatives(plan, &[(names.join(" + "), weights.to_vec())], (by, None), observer)
+    let parts: Vec<(&String, f64)> = weights.results.iter().map(|(name, weight)| (name, *weight)).collect();
+    let of_field = |(name, weights): &'_ (String, Array2<f64>)| {
+        FieldWeights::new(name, weights, plan).map(|weights| (name.clone(), weights))
+    };
+    let fields = weights.fields.iter().map(of_field).collect::<Result<Vec<_>, _>>()?;
+    let names =
+        parts.iter().map(|(name, _)| name.as_str()).chain(fields.iter().map(|(name, _)| name.as_str()));
+    let of = names.collect::<Vec<_>>().join(" + ");
+    derivatives(plan, &[Sum { of, parts, fields }], (by, None), observer)
 }
 
 /// Whether results have derivatives by numbers of the case, as far as that can be said before the run.
@@ -102,13 +126,13 @@ pub fn pulled_back(
 /// # Errors
 /// As [`gradient`] without a run.
 pub fn check_asked(plan: &Plan, of: &[String], by: &[String]) -> Result<(), SensitivityError> {
-    asked(plan, of.iter().map(String::as_str), by).map(drop)
+    asked(plan, (of.iter().map(String::as_str), false), by).map(drop)
 }
 
 /// The numbers that are asked for, all where none is named; refuses what has no derivatives.
 fn asked<'a>(
     plan: &Plan,
-    of: impl Iterator<Item = &'a str>,
+    (of, fields): (impl Iterator<Item = &'a str>, bool),
     by: &[String],
 ) -> Result<Vec<Parameter>, SensitivityError> {
     check(plan)?;
@@ -118,49 +142,61 @@ fn asked<'a>(
         by.iter().map(|path| Parameter::new(path, &plan.case)).collect::<Result<_, _>>()?
     };
     let objectives = of.map(Objective::new).collect::<Result<Vec<_>, _>>()?;
-    check_request(plan, &parameters, &objectives)?;
+    check_request(plan, &parameters, (&objectives, fields))?;
     Ok(parameters)
 }
 
-/// A sum of results: its name, and each of them with its weight.
-type Sum = (String, Vec<(String, f64)>);
+/// A sum of results and of fields: its name, and each of them with its weight.
+struct Sum<'a> {
+    of: String,
+    parts: Vec<(&'a String, f64)>,
+    fields: Vec<(String, FieldWeights)>,
+}
 
 fn derivatives(
     plan: &Plan,
-    sums: &[Sum],
+    sums: &[Sum<'_>],
     (by, direction): (&[String], Option<Direction>),
     observer: &mut dyn Observer,
 ) -> Result<Sensitivities, SensitivityError> {
-    let names = sums.iter().flat_map(|(_, parts)| parts).map(|(name, _)| name.as_str());
-    let parameters = asked(plan, names, by)?;
+    let names = sums.iter().flat_map(|sum| &sum.parts).map(|(name, _)| name.as_str());
+    let parameters = asked(plan, (names, sums.iter().any(|sum| !sum.fields.is_empty())), by)?;
     let bytes = (plan.grid.len() / plan.symmetry.copies())
         .saturating_mul(STATE)
         .saturating_mul(plan.case.increments());
     memory::check(bytes).map_err(|error| RunError::OutOfMemory { increment: 0, error })?;
     let mut run = Snapshots { steps: Vec::new(), cycles: Vec::new(), observer };
-    Simulation::new(plan).run(&mut run)?;
+    let pair = Arc::new(PairCompliance::of(plan));
+    Simulation::new(plan).with_compliance(Some(Arc::clone(&pair))).run(&mut run)?;
     let Snapshots { steps, cycles, observer } = run;
     if let Some(step) = steps.iter().find(|step| step.record.parts > 1) {
         return Err(SensitivityError::Parts { increment: step.record.increment, parts: step.record.parts });
     }
     check_history(plan, steps.iter().map(|step| step.record.contact_cells))?;
-    let targets = sums.iter().map(|sum| target(sum, &steps, &cycles)).collect::<Result<Vec<_>, _>>()?;
+    let scene = Scene::new(plan, &steps);
+    let targets =
+        sums.iter().map(|sum| sum.target(&scene, &steps, &cycles)).collect::<Result<Vec<_>, _>>()?;
     let tolerance = plan.case.tolerance;
     let mut tell = |step: &Snapshot| {
         let StepRecord { increment, stage, .. } = step.record;
         observer.iterated(&Iteration { increment, stage, iteration: 0, residual: 0.0, tolerance })
     };
-    let scene = Scene::new(plan, &steps);
     // What comes after the last increment that is asked for changes nothing of it, whichever way.
     let asked = targets.iter().flat_map(|target| &target.columns).map(|(increment, ..)| increment + 1).max();
     let steps = &steps[..asked.unwrap_or(0)];
-    let mut gradients: Vec<Gradient> =
-        targets.iter().map(|target| target.empty(steps, parameters.len())).collect();
+    let mut gradients: Vec<Gradient> = targets
+        .iter()
+        .map(|target| Gradient {
+            of: target.of.clone(),
+            value: target.value,
+            by: vec![0.0; parameters.len()],
+        })
+        .collect();
     let cheaper = if targets.len() < parameters.len() { Direction::Backward } else { Direction::Forward };
     let bytes = scene.region.len().saturating_mul(backward::BYTES).saturating_mul(steps.len());
     if direction.unwrap_or(cheaper) == Direction::Backward
         && (direction.is_some() || memory::check(bytes).is_ok())
-        && let Some(past) = Past::of(&scene, steps)?
+        && let Some(past) = Past::of(&scene, &pair, steps)?
     {
         let (found, near_events, work) =
             backward::backward(&scene, (past, steps), &parameters, &targets, &mut tell)?;
@@ -170,7 +206,7 @@ fn derivatives(
         let direction = Direction::Backward;
         return Ok(Sensitivities { parameters, gradients, near_events, direction, work });
     }
-    let (near_events, work) = forward(&scene, &parameters, steps, |(step, solved), changes| {
+    let (near_events, work) = forward((&scene, &pair), &parameters, steps, |(step, solved), changes| {
         for (gradient, target) in gradients.iter_mut().zip(&targets) {
             let here = target.columns.iter().filter(|(increment, ..)| *increment == step.record.increment);
             for (_, column, weight) in here {
@@ -186,25 +222,30 @@ fn derivatives(
     Ok(Sensitivities { parameters, gradients, near_events, direction: Direction::Forward, work })
 }
 
-/// The columns that a sum is made of.
-fn target((of, parts): &Sum, steps: &[Snapshot], cycles: &[CycleRecord]) -> Result<Target, SensitivityError> {
-    let mut columns = Vec::new();
-    for (name, weight) in parts {
-        let objective = Objective::new(name)?;
-        for (increment, sign) in objective.needs(name, (steps.len(), cycles))? {
-            columns.extend(increment.map(|increment| (increment, objective.column(), sign * weight)));
+impl Sum<'_> {
+    /// Its value, and the columns of increments that it is made of.
+    fn target(
+        &self,
+        scene: &Scene<'_>,
+        steps: &[Snapshot],
+        cycles: &[CycleRecord],
+    ) -> Result<Target, SensitivityError> {
+        let mut found = Target { of: self.of.clone(), value: 0.0, columns: Vec::new() };
+        for (name, weight) in &self.parts {
+            let objective = Objective::new(name)?;
+            let column = objective.column();
+            for (increment, sign) in objective.needs(name, (steps.len(), cycles))? {
+                let Some(increment) = increment else { continue };
+                found.value += sign * weight * value_of(&steps[increment].record, column);
+                found.columns.push((increment, Column::Named(column), sign * weight));
+            }
         }
-    }
-    Ok(Target { of: of.clone(), columns })
-}
-
-impl Target {
-    /// Its value, and no derivatives yet.
-    fn empty(&self, steps: &[Snapshot], numbers: usize) -> Gradient {
-        let of = |(increment, column, weight): &(usize, &'static str, f64)| {
-            weight * value_of(&steps[*increment].record, column)
-        };
-        Gradient { of: self.of.clone(), value: self.columns.iter().map(of).sum(), by: vec![0.0; numbers] }
+        for (name, weights) in &self.fields {
+            let increment = weights.increment(name, steps.len())?;
+            found.value += weights.value(&steps[increment]);
+            found.columns.push((increment, Column::Field(weights.in_region(scene)), 1.0));
+        }
+        Ok(found)
     }
 }
 

@@ -6,9 +6,11 @@ use super::after::After;
 use super::cell::{MOTIONS, Prescribed};
 use super::change::{Change, Solution};
 use super::contact::{Asked, Contact, Drive};
+use super::error::SensitivityError;
 use super::krylov;
-use super::linearised::{Linearised, Operators, zeros};
+use super::linearised::{Fields, Linearised, zeros};
 use super::loads::Load;
+use super::operators::Operators;
 use super::rule::{Cells, PathChange, Rule};
 use super::scene::Scene;
 use super::solved::{Solved, law_of};
@@ -26,6 +28,12 @@ fn target(tolerance: f64) -> f64 {
     (0.1 * tolerance).clamp(1e-13, 1e-9)
 }
 
+/// The same backwards, where a residual is measured by what it can change of a derivative, which it changes by a hundredth of that: a millionth of the
+/// largest derivative is left at the tolerance that a case has by itself. One below that asks for more.
+fn target_backwards(tolerance: f64) -> f64 {
+    if tolerance < 1e-8 { target(tolerance) } else { 1e-8 }
+}
+
 /// An increment.
 pub(super) struct Increment<'a> {
     scene: &'a Scene<'a>,
@@ -33,6 +41,7 @@ pub(super) struct Increment<'a> {
     rule: Rule,
     pub contact: Contact<'a>,
     after: After<'a>,
+    now: &'a Solved,
     /// Norm of its tractions [pressure].
     size: f64,
 }
@@ -53,11 +62,11 @@ impl<'a> Increment<'a> {
         let contact = Contact::new(scene, (now, before), (load, &law, &rule));
         let after = After::new(scene, [now, before], (&law, &rule));
         let size = now.tractions.iter().map(|part| dot(part, part)).sum::<f64>().sqrt();
-        Self { scene, load, rule, contact, after, size }
+        Self { scene, load, rule, contact, after, now, size }
     }
 
     /// Its linear equations.
-    pub fn equations<'b>(&'b self, operators: &'b mut Operators) -> Linearised<'b> {
+    pub fn equations<'b>(&'b self, operators: &'b mut Operators) -> Result<Linearised<'b>, SensitivityError> {
         let cells = (self.contact.set, &self.contact.cells[..]);
         Linearised::new(operators, cells, self.contact.prescribed, self.scene.region.len())
     }
@@ -114,7 +123,7 @@ impl<'a> Increment<'a> {
         if drive.friction != [0.0; 2] {
             let [x, y] = self.contact.given(drive.friction, region);
             given = [vec![0.0; region], x, y];
-            for (moved, by_given) in moved.iter_mut().zip(equations.displacements(&given)) {
+            for (moved, by_given) in moved.iter_mut().zip(equations.operators.displacements(&given)) {
                 add_scaled(moved, 1.0, &by_given);
             }
             let follows = equations.resultants(&given.each_ref().map(|field| self.contact.set.packed(field)));
@@ -133,15 +142,15 @@ impl<'a> Increment<'a> {
         let right = equations.right_side(&asked.displacements, &asked.amounts);
         let size = norm(&right);
         let allowed = target(self.scene.plan.case.tolerance) * size;
-        let (found, reached) = krylov::solve(equations, &right, None, allowed);
-        if !(reached <= ENOUGH * size) {
-            return Err(reached / size);
+        let found = krylov::solve(equations, &right, allowed);
+        if !(found.left <= ENOUGH * size) {
+            return Err(found.left / size);
         }
-        let (mut tractions, motions) = equations.parted(&found);
+        let (mut tractions, motions) = equations.parted(&found.unknowns);
         for (traction, given) in tractions.iter_mut().zip(&given) {
             add_scaled(traction, 1.0, given);
         }
-        let mut displacements = equations.displacements(&tractions);
+        let mut displacements = equations.operators.displacements(&tractions);
         for (displacement, by_response) in displacements.iter_mut().zip(&drive.response) {
             add_scaled(displacement, 1.0, by_response);
         }
@@ -155,65 +164,53 @@ impl<'a> Increment<'a> {
         drive: &mut Drive,
         largest: &mut f64,
     ) -> Result<Asked, f64> {
-        let region = self.scene.region.len();
-        let Solution { mut tractions, displacements, motions } = solution;
-        // The elastic response is its own transpose.
-        for (traction, by) in tractions.iter_mut().zip(equations.displacements(&displacements)) {
-            add_scaled(traction, 1.0, &by);
-        }
-        let right = equations.parted_transposed(&tractions, &motions);
-        let size = norm(&right);
-        // A residual changes the derivatives by its product with the change of the solution, which is of the size of the tractions.
-        *largest = largest.max(size * self.size);
-        let wanted = target(self.scene.plan.case.tolerance);
+        // Where all that counts is what displacements in the contact count, the cells see just that: what is left is solved for.
+        let packed = solution.displacements.each_ref().map(|field| self.contact.set.packed(field));
+        let mut multipliers = equations.rows_of(&packed);
+        let (left, mut tractions) = equations.left_of(&solution, &multipliers);
+        let size = norm(&left);
+        // A residual changes the derivatives by its product with the change of the solution, which is of the size of the solution.
+        *largest = largest.max(self.product(&solution)).max(size * self.size);
+        let wanted = target_backwards(self.scene.plan.case.tolerance);
         let allowed = if self.size > 0.0 { wanted * (*largest / self.size) } else { wanted * size };
-        // Where all that counts is what displacements in the contact count, the cells see just that.
-        let seen = displacements.each_ref().map(|field| self.contact.set.packed(field));
-        let guess = equations.rows_of(&seen);
-        let mut problem = Transposed::of(equations);
-        let (found, reached) = krylov::solve(&mut problem, &right, Some(guess), allowed);
-        if !(reached <= allowed.max(ENOUGH * size)) {
-            return Err(reached / size);
+        let found = krylov::solve(&mut Transposed::of(equations, &self.contact), &left, allowed);
+        if !(found.left <= allowed.max(ENOUGH * size)) {
+            return Err(found.left / size);
         }
-        let moved = problem.moved;
-        let (asked, amounts) = equations.right_side_transposed(&found);
-        let seen = self.contact.seen(&asked);
-        let on_region = seen.each_ref().map(|packed| {
-            let mut field = vec![0.0; region];
-            self.contact.set.scatter(packed, 1.0, &mut field);
-            field
-        });
+        add_scaled(&mut multipliers, 1.0, &found.unknowns);
+        let (asked, amounts) = equations.right_side_transposed(&multipliers);
         if self.contact.cells.iter().any(|cell| cell.along != [0.0; 2]) {
-            for (traction, by) in tractions.iter_mut().zip(&moved) {
-                for (place, cell) in self.contact.set.cells().enumerate() {
-                    traction[cell] -= by[place];
-                }
-            }
             let follow = std::array::from_fn(|motion| match self.contact.prescribed[motion] {
                 Prescribed::Motion => 0.0,
                 Prescribed::Resultant => -amounts[motion],
                 Prescribed::FarEnd(give) => -give * amounts[motion],
             });
-            let mut by_resultants = zeros(self.contact.cells.len());
-            equations.resultants_transposed(&follow, &mut by_resultants);
-            let by_friction = {
-                let [_, x, y] = &mut tractions;
-                for (field, packed) in [&mut *x, y].into_iter().zip(&by_resultants[1..]) {
-                    for (place, cell) in self.contact.set.cells().enumerate() {
-                        field[cell] += packed[place];
-                    }
-                }
-                self.contact.given_transposed([&tractions[1], &tractions[2]])
-            };
-            for (friction, by) in drive.friction.iter_mut().zip(by_friction) {
-                *friction += by;
+            equations.resultants_transposed(&follow, &mut tractions);
+            let by_friction = self.contact.given_transposed(&tractions);
+            for ((friction, by), aside) in drive.friction.iter_mut().zip(by_friction).zip(found.aside) {
+                *friction += by - aside;
             }
         }
-        for ((response, displacement), seen) in drive.response.iter_mut().zip(displacements).zip(on_region) {
-            add_scaled(response, 1.0, &displacement);
-            add_scaled(response, -1.0, &seen);
+        let seen = self.contact.seen(&asked);
+        for ((response, displacement), seen) in
+            drive.response.iter_mut().zip(&solution.displacements).zip(&seen)
+        {
+            add_scaled(response, 1.0, displacement);
+            for (place, cell) in self.contact.set.cells().enumerate() {
+                response[cell] -= seen[place];
+            }
         }
         Ok(Asked { displacements: asked, amounts })
+    }
+
+    /// The product of a solution and of how an objective changes with it, all parts without their signs.
+    fn product(&self, counts: &Solution) -> f64 {
+        let Solved { tractions, displacements, motions, .. } = self.now;
+        let of_fields = |a: &Fields, b: &Fields| -> f64 {
+            a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a * b).abs()).sum()
+        };
+        let of_motions: f64 = motions.iter().zip(&counts.motions).map(|(a, b)| (a * b).abs()).sum();
+        of_fields(tractions, &counts.tractions) + of_fields(displacements, &counts.displacements) + of_motions
     }
 
     /// Changes of bodies that do not touch: motions that are prescribed, and an approach to the first touch where a force is.

@@ -1,15 +1,39 @@
-//! The linear problems of derivatives: by the solver's GMRES, preconditioned from the right, from a guess where there is one; what it leaves over is
-//! solved for again until little enough is left.
+//! The linear problems of derivatives: by the solver's GMRES, preconditioned from the right; what it leaves over is solved for again until little
+//! enough is left.
 
-use crate::fields::{add_scaled, dot, norm};
+use crate::fields::{add_scaled, norm};
 use crate::solver::{ContactVector, Gmres};
 
 /// Krylov steps at the most.
 const MOST_STEPS: usize = 400;
 /// Times that what is left over is solved for, again and again.
 const MOST_ROUNDS: usize = 6;
-/// Relative residual that a round in single precision is taken to.
-const SINGLE: f64 = 3e-5;
+/// Relative residual that a round is taken to at the most, and down to which it may be believed without a look at what it leaves: in single and in
+/// double precision.
+const SINGLE: f64 = 3e-6;
+const DOUBLE: f64 = 1e-11;
+/// So many rounds are believed after one whose count of what it leaves was right, within this factor.
+const BELIEVED: usize = 8;
+const RIGHT: f64 = 1.5;
+
+/// How many more rounds of the search are believed what they count, in single and in double precision.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Trust([usize; 2]);
+
+impl Trust {
+    /// Whether a round is believed.
+    fn believes(&mut self, hurries: bool) -> bool {
+        let rounds = &mut self.0[usize::from(!hurries)];
+        let believes = *rounds > 0;
+        *rounds = rounds.saturating_sub(1);
+        believes
+    }
+
+    /// Learns what a round that counted so much left.
+    fn learn(&mut self, hurries: bool, [counted, left]: [f64; 2]) {
+        self.0[usize::from(!hurries)] = if left <= RIGHT * counted { BELIEVED } else { 0 };
+    }
+}
 
 /// A linear problem with an approximate inverse.
 pub(super) trait LinearProblem {
@@ -21,108 +45,116 @@ pub(super) trait LinearProblem {
     fn hurry(&mut self, _may: bool) -> bool {
         false
     }
+    /// Numbers that the unknowns applied last have besides, linear in them.
+    fn aside(&self) -> [f64; 2] {
+        [0.0; 2]
+    }
+    /// How far a search is believed.
+    fn trust(&mut self) -> &mut Trust;
 }
 
-/// Solves a problem until a residual of the size `allowed` is left, from a guess of the direction of its solution; with it the size of the residual,
-/// evaluated with the solution.
-pub(super) fn solve(
-    problem: &mut impl LinearProblem,
-    right: &[f64],
-    guess: Option<Vec<f64>>,
-    allowed: f64,
-) -> (Vec<f64>, f64) {
-    let size = norm(right);
-    let mut solution = vec![0.0; right.len()];
-    if right.iter().all(|value| *value == 0.0) {
-        return (solution, 0.0);
+/// Unknowns, what they have besides, and the size of the residual that they leave.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Found {
+    pub unknowns: Vec<f64>,
+    pub aside: [f64; 2],
+    pub left: f64,
+}
+
+/// Solves a problem until a residual of the size `allowed` is left.
+pub(super) fn solve(problem: &mut impl LinearProblem, right: &[f64], allowed: f64) -> Found {
+    let mut found = Found { unknowns: vec![0.0; right.len()], aside: [0.0; 2], left: norm(right) };
+    if right.iter().all(|value| *value == 0.0) || found.left <= allowed {
+        return found;
     }
-    if !(size > 0.0 && size.is_finite()) {
-        return (solution, f64::INFINITY);
-    }
-    if size <= allowed {
-        return (solution, size);
+    if !found.left.is_finite() {
+        found.left = f64::INFINITY;
+        return found;
     }
     let mut left = right.to_vec();
-    if let Some(guess) = guess {
-        start(problem, &guess, &mut left, &mut solution);
-        // In single precision: not the last word.
-        if norm(&left) <= allowed {
-            residual(problem, right, &solution, &mut left);
-        }
-    }
-    let mut reached = norm(&left);
-    if reached <= allowed {
-        return (solution, reached);
-    }
     let mut may_hurry = true;
     for _ in 0..MOST_ROUNDS {
         let hurries = problem.hurry(may_hurry);
-        let aim = if hurries { SINGLE.max(allowed / reached) } else { allowed / reached };
-        let step = krylov(problem, &left, aim);
+        let (aim, least) = (allowed / found.left, if hurries { SINGLE } else { DOUBLE });
+        let (step, counted) = krylov(problem, &left, if hurries { aim.max(SINGLE) } else { aim });
         problem.hurry(false);
-        add_scaled(&mut solution, 1.0, &step);
-        residual(problem, right, &solution, &mut left);
+        found.add(1.0, &step);
+        if aim >= least && counted <= aim && problem.trust().believes(hurries) {
+            found.left *= counted;
+            break;
+        }
+        found.look(problem, right, &mut left);
         let now = norm(&left);
+        if aim >= least {
+            problem.trust().learn(hurries, [counted * found.left, now]);
+        }
         // Where single precision does not serve, double precision goes on.
-        may_hurry = now < 0.01 * reached;
-        if !(now < reached) {
-            add_scaled(&mut solution, -1.0, &step);
-            residual(problem, right, &solution, &mut left);
-            reached = norm(&left);
+        may_hurry = now < 0.01 * found.left;
+        if now < found.left {
+            found.left = now;
+            if now <= allowed {
+                break;
+            }
+        } else {
+            found.add(-1.0, &step);
             if !hurries {
                 break;
             }
-            continue;
-        }
-        reached = now;
-        if reached <= allowed {
-            break;
+            found.look(problem, right, &mut left);
         }
     }
-    (solution, reached)
+    found
 }
 
-/// What the equations leave of the right side with a solution.
-fn residual(problem: &mut impl LinearProblem, right: &[f64], solution: &[f64], left: &mut [f64]) {
-    problem.apply(solution, left);
-    for (left, right) in left.iter_mut().zip(right) {
-        *left = right - *left;
+impl Found {
+    /// What the equations leave of the right side with the unknowns; and what these have besides, which single precision told with its errors.
+    fn look(&mut self, problem: &mut impl LinearProblem, right: &[f64], left: &mut [f64]) {
+        problem.apply(&self.unknowns, left);
+        self.aside = problem.aside();
+        for (left, right) in left.iter_mut().zip(right) {
+            *left = right - *left;
+        }
+    }
+
+    fn add(&mut self, factor: f64, step: &Step) {
+        add_scaled(&mut self.unknowns, factor, &step.unknowns);
+        for (aside, step) in self.aside.iter_mut().zip(step.aside) {
+            *aside += factor * step;
+        }
     }
 }
 
-/// Begins with as much of a guess as leaves least of the right side.
-fn start(problem: &mut impl LinearProblem, guess: &[f64], left: &mut [f64], solution: &mut [f64]) {
-    let mut image = vec![0.0; guess.len()];
-    problem.hurry(true);
-    problem.apply(guess, &mut image);
-    problem.hurry(false);
-    let size = dot(&image, &image);
-    if size > 0.0 && size.is_finite() {
-        let amount = dot(&image, left) / size;
-        add_scaled(solution, amount, guess);
-        add_scaled(left, -amount, &image);
-    }
+/// What a search adds to the unknowns.
+struct Step {
+    unknowns: Vec<f64>,
+    aside: [f64; 2],
 }
 
-/// One search for the combination of Krylov directions with the least residual.
-fn krylov(problem: &mut impl LinearProblem, right: &[f64], target: f64) -> Vec<f64> {
+/// One search for the combination of Krylov directions with the least residual, and its relative size as the search counts it.
+fn krylov(problem: &mut impl LinearProblem, right: &[f64], target: f64) -> (Step, f64) {
     let size = norm(right);
     let mut method = Gmres::<f64>::default();
     let first = method.right();
     first.reset(1, right.len());
     first.values_mut().copy_from_slice(right);
     first.scale(1.0 / size);
-    let mut inverse = vec![0.0; right.len()];
-    let mut combination = ContactVector::default();
+    let mut steps: Vec<Step> = Vec::new();
     let apply = |from: &ContactVector<f64>, to: &mut ContactVector<f64>| {
-        problem.invert(from.values(), &mut inverse);
+        let mut unknowns = vec![0.0; right.len()];
+        problem.invert(from.values(), &mut unknowns);
         to.clear_like(from);
-        problem.apply(&inverse, to.values_mut());
+        problem.apply(&unknowns, to.values_mut());
+        steps.push(Step { unknowns, aside: problem.aside() });
     };
-    method.solve(apply, (target, MOST_STEPS), &mut combination);
-    combination.scale(size);
-    problem.invert(combination.values(), &mut inverse);
-    inverse
+    let (amounts, left) = method.solve(apply, (target, MOST_STEPS), &mut ContactVector::default());
+    let mut found = Step { unknowns: vec![0.0; right.len()], aside: [0.0; 2] };
+    for (step, amount) in steps.iter().zip(amounts) {
+        add_scaled(&mut found.unknowns, size * amount, &step.unknowns);
+        for (aside, by) in found.aside.iter_mut().zip(step.aside) {
+            *aside += size * amount * by;
+        }
+    }
+    (found, left)
 }
 
 #[cfg(test)]
@@ -131,23 +163,34 @@ mod tests {
     use crate::fields::dot;
     use crate::random::Random;
 
-    /// A dense matrix with a diagonal for its approximate inverse.
-    struct Dense(Vec<Vec<f64>>);
+    /// A dense matrix with a diagonal for its approximate inverse; besides, the sum of the unknowns.
+    struct Dense {
+        matrix: Vec<Vec<f64>>,
+        aside: f64,
+        trust: Trust,
+    }
 
     impl LinearProblem for Dense {
         fn apply(&mut self, unknowns: &[f64], equations: &mut [f64]) {
-            for (row, equation) in self.0.iter().zip(equations) {
+            self.aside = unknowns.iter().sum();
+            for (row, equation) in self.matrix.iter().zip(equations) {
                 *equation = dot(row, unknowns);
             }
         }
         fn invert(&mut self, equations: &[f64], unknowns: &mut [f64]) {
             for (number, unknown) in unknowns.iter_mut().enumerate() {
-                *unknown = equations[number] / self.0[number][number];
+                *unknown = equations[number] / self.matrix[number][number];
             }
+        }
+        fn aside(&self) -> [f64; 2] {
+            [self.aside, 0.0]
+        }
+        fn trust(&mut self) -> &mut Trust {
+            &mut self.trust
         }
     }
 
-    /// Forty unknowns that are known: found to rounding, times a condition of about ten.
+    /// Forty unknowns that are known: found to rounding, times a condition of about ten; with a number besides that is linear in them.
     #[test]
     fn known_unknowns_are_found() {
         let mut random = Random::seeded(3);
@@ -158,18 +201,23 @@ mod tests {
             })
             .collect();
         let known: Vec<f64> = (0..40).map(|_| random.between(-1.0, 1.0)).collect();
-        let mut problem = Dense(matrix);
+        let mut problem = Dense { matrix, aside: 0.0, trust: Trust::default() };
         let mut right = vec![0.0; 40];
         problem.apply(&known, &mut right);
-        let allowed = 1e-14 * norm(&right);
-        let nearby: Vec<f64> = known.iter().map(|value| -3.0 * value + 1e-3).collect();
-        for guess in [None, Some(nearby), Some(known.clone()), Some(vec![0.0; 40])] {
-            let (found, reached) = solve(&mut problem, &right, guess, allowed);
-            assert!(reached <= allowed, "{reached:e}");
-            assert!(found.iter().zip(&known).all(|(found, known)| (found - known).abs() < 1e-12));
+        let [size, aside] = [norm(&right), problem.aside];
+        // What is left, and what the search counts: believed from the second time on.
+        for (relative, off) in [(1e-14, 1e-12), (1e-6, 1e-5), (1e-6, 1e-5)] {
+            let found = solve(&mut problem, &right, relative * size);
+            assert!(found.left <= relative * size, "{found:?}");
+            assert!(found.unknowns.iter().zip(&known).all(|(found, known)| (found - known).abs() < off));
+            assert!((found.aside[0] - aside).abs() < 10.0 * off && found.aside[1] == 0.0, "{found:?}");
+            let mut left = vec![0.0; 40];
+            found.clone().look(&mut problem, &right, &mut left);
+            assert!((norm(&left) - found.left).abs() < 1e-13 * size, "{:e} {found:?}", norm(&left));
         }
-        assert_eq!(solve(&mut problem, &[0.0; 40], None, 0.0), (vec![0.0; 40], 0.0));
+        let nothing = |left: f64| Found { unknowns: vec![0.0; 40], aside: [0.0; 2], left };
+        assert_eq!(solve(&mut problem, &[0.0; 40], 0.0), nothing(0.0));
         // What is small enough already is not solved for.
-        assert_eq!(solve(&mut problem, &right, None, 1e3), (vec![0.0; 40], norm(&right)));
+        assert_eq!(solve(&mut problem, &right, 1e3), nothing(size));
     }
 }

@@ -11,20 +11,11 @@
 //! ```
 
 use super::cell::{Cell, MOTIONS, Prescribed, Shear};
-use super::krylov::LinearProblem;
-use crate::compliance::{SpectralCompliance, SurfaceCompliance};
-use crate::fields::{add_scaled, norm};
-use crate::solver::{ContactSet, Preconditioner, SlipWeights};
-
-/// Operators on the cells of the region of a history.
-pub(super) struct Operators {
-    pub compliance: SpectralCompliance,
-    pub preconditioner: Preconditioner,
-    /// Whether shear is unknown.
-    pub frictional: bool,
-    /// Applications of the response in linear problems so far.
-    pub of_linear_problems: usize,
-}
+use super::error::SensitivityError;
+use super::krylov::{LinearProblem, Trust};
+use super::operators::Operators;
+use crate::fields::add_scaled;
+use crate::solver::{ContactSet, SlipWeights};
 
 /// A field of tractions or displacements: normal, along x and y.
 pub(super) type Fields = [Vec<f64>; 3];
@@ -32,23 +23,6 @@ pub(super) type Fields = [Vec<f64>; 3];
 /// Fields of zeros.
 pub(super) fn zeros(cells: usize) -> Fields {
     [(); 3].map(|()| vec![0.0; cells])
-}
-
-/// Displacements of tractions on all cells of the region [length].
-pub(super) fn displacements(
-    compliance: &mut SpectralCompliance,
-    frictional: bool,
-    tractions: &Fields,
-) -> Fields {
-    let [pressure, x, y] = tractions;
-    let mut moved = zeros(pressure.len());
-    let [normal, along_x, along_y] = &mut moved;
-    if frictional {
-        compliance.full([pressure, x, y], [normal, along_x, along_y]);
-    } else {
-        compliance.normal(pressure, normal);
-    }
-    moved
 }
 
 /// The linearised equations of one increment.
@@ -63,9 +37,7 @@ pub(super) struct Linearised<'a> {
     /// What the approximate inverse makes of each motion, and the small matrix of motions against their rows.
     pub(super) bordered: Vec<Vec<f64>>,
     pub(super) schur: [[f64; MOTIONS]; MOTIONS],
-    pub(super) region: usize,
-    /// Whether displacements are found in single precision, where they can be.
-    hurries: bool,
+    region: usize,
 }
 
 impl<'a> Linearised<'a> {
@@ -75,14 +47,15 @@ impl<'a> Linearised<'a> {
         (contact, cells): (&'a ContactSet, &'a [Cell]),
         prescribed: [Prescribed; MOTIONS],
         region: usize,
-    ) -> Self {
+    ) -> Result<Self, SensitivityError> {
         let slip: Vec<f64> = cells
             .iter()
             .map(|cell| if let Shear::Turns { compliance, .. } = cell.shear { compliance } else { 0.0 })
             .collect();
+        operators.come_to(contact)?;
         let mut weights = SlipWeights::default();
-        operators.preconditioner.prepare(contact, &slip, 1.0, &mut weights);
-        let own = operators.compliance.self_influence();
+        operators.prepare(&slip, &mut weights);
+        let own = operators.self_influence();
         let own = [own.normal, if own.tangential > 0.0 { own.tangential } else { own.normal }];
         let mut problem = Self {
             operators,
@@ -94,44 +67,11 @@ impl<'a> Linearised<'a> {
             bordered: Vec::new(),
             schur: [[0.0; MOTIONS]; MOTIONS],
             region,
-            hurries: false,
         };
         if !cells.is_empty() {
             problem.border();
         }
-        problem
-    }
-
-    /// Displacements of tractions on all cells of the region [length].
-    pub fn displacements(&mut self, tractions: &Fields) -> Fields {
-        displacements(&mut self.operators.compliance, self.operators.frictional, tractions)
-    }
-
-    /// Displacements of tractions in the cells of the contact, both packed; in single precision where that is wanted [length].
-    pub(super) fn moved(&mut self, tractions: &Fields) -> Fields {
-        let mut moved = zeros(self.cells.len());
-        let Operators { compliance, preconditioner, frictional, of_linear_problems } = &mut *self.operators;
-        *of_linear_problems += 1;
-        let from = tractions.each_ref().map(Vec::as_slice);
-        let mut to = moved.each_mut().map(Vec::as_mut_slice);
-        if !*frictional {
-            preconditioner.fields::<f64>().carry(&from[..1], &mut to[..1], [1.0; 2], |from, to| {
-                compliance.normal(from[0], to[0]);
-            });
-            return moved;
-        }
-        if let Some(mut single) = self.hurries.then(|| compliance.full_single()).flatten() {
-            let size = from.iter().map(|part| norm(part)).fold(0.0, f64::max);
-            let unit = if size > 0.0 { size } else { 1.0 };
-            let factors = [unit, unit * single.unit()];
-            preconditioner.fields::<f32>().carry(&from, &mut to, factors, |from, to| single.apply(from, to));
-            return moved;
-        }
-        preconditioner.fields::<f64>().carry(&from, &mut to, [1.0; 2], |from, to| {
-            let [normal, x, y] = to else { return };
-            compliance.full([from[0], from[1], from[2]], [normal, x, y]);
-        });
-        moved
+        Ok(problem)
     }
 
     /// How many unknowns there are.
@@ -258,14 +198,10 @@ impl<'a> Linearised<'a> {
     fn invert_cells(&mut self, equations: &[f64], unknowns: &mut [f64]) {
         let n = self.cells.len();
         let unit = self.own[0];
-        let normal: Vec<f64> = equations[..n].iter().map(|value| value * unit).collect();
-        let mut pressure = vec![0.0; n];
-        self.operators.preconditioner.pressure(&normal, &mut pressure, &self.weights);
-        unknowns[..n].copy_from_slice(&pressure);
-        let (mut x, mut y) = (vec![0.0; n], vec![0.0; n]);
+        let mut right = zeros(n);
         for (place, cell) in self.cells.iter().enumerate() {
             let own = [equations[n + place], equations[2 * n + place]];
-            [x[place], y[place]] = match cell.shear {
+            let [x, y] = match cell.shear {
                 Shear::Held => own.map(|part| part * unit),
                 Shear::HeldAlong(0) => [own[0] * unit, 0.0],
                 Shear::HeldAlong(_) => [0.0, own[0] * unit],
@@ -274,15 +210,13 @@ impl<'a> Linearised<'a> {
                 }
                 Shear::Follows => [0.0; 2],
             };
+            (right[0][place], right[1][place], right[2][place]) = (equations[place] * unit, x, y);
         }
-        let mut shear = [vec![0.0; n], vec![0.0; n]];
-        if self.operators.frictional {
-            let [to_x, to_y] = &mut shear;
-            self.operators.preconditioner.shear(([&x, &y], None), [to_x, to_y], &mut self.weights);
-        }
+        let [pressure, x, y] = self.operators.removed(&right, &mut self.weights);
+        unknowns[..n].copy_from_slice(&pressure);
         for (place, cell) in self.cells.iter().enumerate() {
             let own = [equations[n + place], equations[2 * n + place]];
-            let found = [shear[0][place], shear[1][place]];
+            let found = [x[place], y[place]];
             [unknowns[n + place], unknowns[2 * n + place]] = match cell.shear {
                 Shear::Held => found,
                 Shear::HeldAlong(axis) => [found[axis], own[1]],
@@ -338,7 +272,7 @@ impl LinearProblem for Linearised<'_> {
         let n = self.cells.len();
         let tractions = self.tractions(unknowns);
         let motions = std::array::from_fn(|motion| unknowns[3 * n + motion] * self.own[0]);
-        let mut moved = self.moved(&tractions);
+        let mut moved = self.operators.moved(&tractions);
         for (place, cell) in self.cells.iter().enumerate() {
             let by_motions = cell.moved(&motions);
             for part in 0..3 {
@@ -351,8 +285,11 @@ impl LinearProblem for Linearised<'_> {
     }
 
     fn hurry(&mut self, may: bool) -> bool {
-        self.hurries = may && self.operators.compliance.full_single().is_some();
-        self.hurries
+        self.operators.hurry(may)
+    }
+
+    fn trust(&mut self) -> &mut Trust {
+        &mut self.operators.trust
     }
 
     fn invert(&mut self, equations: &[f64], unknowns: &mut [f64]) {

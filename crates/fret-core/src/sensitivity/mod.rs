@@ -15,6 +15,7 @@ mod contact;
 mod energies;
 mod error;
 mod events;
+mod field_weights;
 mod forward;
 mod gradient;
 mod increment;
@@ -22,6 +23,7 @@ mod krylov;
 mod linearised;
 mod loads;
 mod objective;
+mod operators;
 mod parameter;
 mod refusals;
 mod replay;
@@ -35,7 +37,10 @@ mod work;
 
 pub use error::SensitivityError;
 pub use events::NearEvents;
-pub use gradient::{Direction, Gradient, Request, Sensitivities, check_asked, gradient, pulled_back};
+pub use field_weights::FIELDS;
+pub use gradient::{
+    Direction, Gradient, Request, Sensitivities, Weights, check_asked, gradient, pulled_back,
+};
 pub use objective::{COLUMNS, check_name};
 pub use parameter::Parameter;
 pub use work::Work;

@@ -2,8 +2,9 @@
 
 use super::change::Change;
 use super::error::SensitivityError;
+use super::field_weights::RegionWeights;
 use super::solved::Solved;
-use crate::fields::length;
+use crate::fields::{add_scaled, dot, length};
 use crate::history::{CycleRecord, STEP_COLUMNS, StepRecord, Value};
 
 /// Columns of an increment that have derivatives.
@@ -122,9 +123,18 @@ pub(super) fn value_of(record: &StepRecord, column: &str) -> f64 {
     }
 }
 
+/// What derivatives are taken of in an increment.
+#[derive(Debug, Clone)]
+pub(super) enum Column {
+    /// A column of its record.
+    Named(&'static str),
+    /// The sum of a field, each cell times its weight in the region.
+    Field(RegionWeights),
+}
+
 /// A column of an increment as a row: what it is of all that changes there.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Row {
+pub(super) enum Row<'a> {
     /// Force, motion or motion of the far end of a degree of freedom.
     Reached(usize, usize),
     /// An energy.
@@ -133,15 +143,21 @@ pub(super) enum Row {
     Pressure(usize),
     /// The shear of a cell, along a direction.
     Shear(usize, [f64; 2]),
+    /// Pressure (0) or shear along x or y (1, 2) of all cells, each by a weight.
+    Field(usize, &'a [f64]),
     /// The friction coefficient in force.
     Friction,
     /// Nothing: nothing wears in the histories whose derivatives are taken.
     Nothing,
 }
 
-impl Row {
+impl<'a> Row<'a> {
     /// That of a column of an increment.
-    pub fn new(column: &str, solved: &Solved) -> Self {
+    pub fn new(column: &'a Column, solved: &Solved) -> Self {
+        let column = match column {
+            Column::Named(column) => *column,
+            Column::Field(of) => return Self::Field(of.field, &of.weights),
+        };
         match column {
             "normal_force" => Self::Reached(0, 0),
             "approach" => Self::Reached(0, 1),
@@ -185,6 +201,8 @@ impl Row {
             Self::Energy(energy) => change.energies[energy],
             Self::Pressure(cell) => change.pressure[cell],
             Self::Shear(cell, along) => along[0] * change.shear[0][cell] + along[1] * change.shear[1][cell],
+            Self::Field(0, weights) => dot(weights, &change.pressure),
+            Self::Field(component, weights) => dot(weights, &change.shear[component - 1]),
             Self::Friction => friction,
             Self::Nothing => 0.0,
         }
@@ -200,6 +218,8 @@ impl Row {
                 to.shear[0][cell] += weight * along[0];
                 to.shear[1][cell] += weight * along[1];
             }
+            Self::Field(0, weights) => add_scaled(&mut to.pressure, weight, weights),
+            Self::Field(component, weights) => add_scaled(&mut to.shear[component - 1], weight, weights),
             Self::Friction => *friction += weight,
             Self::Nothing => {}
         }

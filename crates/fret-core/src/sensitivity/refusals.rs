@@ -47,7 +47,7 @@ pub(super) fn check(plan: &Plan) -> Result<(), SensitivityError> {
 pub(super) fn check_request(
     plan: &Plan,
     parameters: &[Parameter],
-    objectives: &[Objective],
+    (objectives, fields): (&[Objective], bool),
 ) -> Result<(), SensitivityError> {
     let refused = |parameter: &Parameter, reason: &str| {
         Err(SensitivityError::Parameter { path: parameter.path().to_owned(), reason: reason.to_owned() })
@@ -69,6 +69,13 @@ pub(super) fn check_request(
                     parameter,
                     "pressure and shear of these bodies do not act on each other, but with another value they would, and the scene is not \
                      symmetric: give one of the bodies a slightly different constant",
+                );
+            }
+            if fields {
+                return refused(
+                    parameter,
+                    "pressure and shear of these bodies do not act on each other, but with another value they would: fields have no derivative \
+                     here: give one of the bodies a slightly different constant",
                 );
             }
             if let Some(odd) = objectives.iter().find(|objective| ODD.contains(&objective.column())) {

@@ -2,8 +2,9 @@
 
 use ndarray::Array2;
 
-use super::linearised::{Operators, displacements, zeros};
+use super::linearised::zeros;
 use super::loads::{Load, Prescribed};
+use super::operators::Operators;
 use super::rule::{Cells, Rule};
 use super::scene::{Scene, Snapshot};
 use super::solved::{Solved, at, deep_by, moved_by};
@@ -59,7 +60,7 @@ fn solved(
     let region = scene.region;
     let tractions = [&state.pressure, &state.shear[0], &state.shear[1]].map(|field| region.gather(field));
     let moved = if tractions[0].iter().any(|p| *p > 0.0) {
-        displacements(&mut operators.compliance, operators.frictional, &tractions)
+        operators.displacements(&tractions)
     } else {
         zeros(region.len())
     };

@@ -1,18 +1,20 @@
 //! What stays the same along a history whose derivatives are taken: grid, region, gap, symmetry, machine; and its increments as they were
 //! solved.
 
+use std::sync::Arc;
+
 use ndarray::Array2;
 
 use super::cell::MOTIONS;
 use super::change::Reached;
 use super::error::SensitivityError;
-use super::linearised::Operators;
+use super::operators::{Made, Operators};
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceResponse};
 use crate::history::StepRecord;
-use crate::kernel::ResponseTable;
 use crate::model::{ContactState, Rig, SurfaceGrid};
 use crate::plan::{Coupling, Plan};
-use crate::solver::{CellWaves, Preconditioner, Region};
+use crate::run::PairCompliance;
+use crate::solver::Region;
 use fret_fft::{ConvolutionError, good_length};
 
 /// Cells beyond all contacts of the history: to these the edge may come, and they see those beside them.
@@ -95,20 +97,16 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Operators of a response on the region.
-    pub fn operators(
-        &self,
-        response: &SurfaceResponse,
-        table: Option<&ResponseTable>,
-    ) -> Result<Operators, SensitivityError> {
-        let failed = |error: ConvolutionError| SensitivityError::Operators(error.to_string());
-        let (shape, set) = (self.region.shape, self.operator_set());
-        let waves = table.map(|table| CellWaves { table, spacing: self.grid.spacing() });
-        Ok(Operators {
-            compliance: SpectralCompliance::new(response, shape, set).map_err(failed)?,
-            preconditioner: Preconditioner::new(response, waves, shape, set).map_err(failed)?,
+    /// Operators of a pair on the region.
+    pub fn operators(&self, pair: &Arc<PairCompliance>) -> Result<Operators, SensitivityError> {
+        Operators::new(Made {
+            pair: Arc::clone(pair),
+            set: self.operator_set(),
+            spacing: self.grid.spacing(),
+            region: self.region.shape,
+            grid: self.grid.len(),
+            periodic: self.plan.case.periodic,
             frictional: self.is_frictional(),
-            of_linear_problems: 0,
         })
     }
 

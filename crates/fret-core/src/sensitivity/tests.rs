@@ -1,5 +1,7 @@
 //! Every term of a linearised increment, and the whole of it, has the transpose that it goes backwards by: `<y, A x> = <A^T y, x>` on random vectors.
 
+use std::sync::Arc;
+
 use super::after::After;
 use super::cell::MOTIONS;
 use super::change::{Change, Solution};
@@ -7,8 +9,9 @@ use super::contact::{Asked, Contact, Drive};
 use super::gradient::Snapshots;
 use super::increment::Increment;
 use super::krylov::LinearProblem;
-use super::linearised::Fields;
+use super::linearised::{Fields, Linearised};
 use super::loads::Load;
+use super::operators::Operators;
 use super::replay::Replay;
 use super::rule::{Cells, PathChange, Rule};
 use super::scene::{Scene, Snapshot};
@@ -163,14 +166,13 @@ struct At<'a> {
 }
 
 /// Shows every increment of a history that is linearised.
-fn each_increment(text: &str, mut show: impl FnMut(At<'_>, &mut super::linearised::Operators)) {
+fn each_increment(text: &str, mut show: impl FnMut(At<'_>, &mut Operators)) {
     let plan = Plan::new(Case::from_toml(text, "case.toml").unwrap()).unwrap();
     let mut run = Snapshots { steps: Vec::new(), cycles: Vec::new(), observer: &mut Silent };
     Simulation::new(&plan).run(&mut run).unwrap();
     let steps = run.steps;
     let scene = Scene::new(&plan, &steps);
-    let compliance = PairCompliance::of(&plan);
-    let mut operators = scene.operators(&compliance.response, compliance.table.as_ref()).unwrap();
+    let mut operators = scene.operators(&Arc::new(PairCompliance::of(&plan))).unwrap();
     let mut replay = Replay::new(&scene);
     let mut past = [replay.start.clone(), replay.start.clone()];
     for (number, snapshot) in steps.iter().enumerate() {
@@ -265,10 +267,10 @@ fn what_is_asked(random: &mut Random, contact: &Contact<'_>, (cells, contact_cel
         + of_paths(&to_paths, &of_paths_in)
         + of_drives(&to_drive, &of_drive);
     alike("asked", forward, backward, 1e-12);
-    let (friction, field) = (array(random), [(); 2].map(|()| vector(random, cells)));
-    let given = contact.given(friction, cells);
-    let back = contact.given_transposed([&field[0], &field[1]]);
-    let forward = dot(&given[0], &field[0]) + dot(&given[1], &field[1]);
+    let (friction, tractions) = (array(random), fields(random, contact_cells));
+    let given = contact.given(friction, cells).map(|field| contact.set.packed(&field));
+    let back = contact.given_transposed(&tractions);
+    let forward = dot(&given[0], &tractions[1]) + dot(&given[1], &tractions[2]);
     if contact.cells.iter().any(|cell| cell.along != [0.0; 2]) {
         alike("given", forward, dot(&back, &friction), 1e-12);
     }
@@ -300,22 +302,17 @@ fn what_follows(random: &mut Random, after: &After<'_>, (cells, contact_cells): 
 }
 
 /// The equations and their approximate inverse, with the steps before and after them.
-fn equations(
-    random: &mut Random,
-    contact: &Contact<'_>,
-    operators: &mut super::linearised::Operators,
-    cells: usize,
-) {
+fn equations(random: &mut Random, contact: &Contact<'_>, operators: &mut Operators, cells: usize) {
     let set = (contact.set, &contact.cells[..]);
-    let mut problem = super::linearised::Linearised::new(operators, set, contact.prescribed, cells);
+    let mut problem = Linearised::new(operators, set, contact.prescribed, cells).unwrap();
     let size = problem.len();
     let (x, y) = (vector(random, size), vector(random, size));
     let (mut forward, mut back) = (vec![0.0; size], vec![0.0; size]);
     problem.apply(&x, &mut forward);
-    Transposed::of(&mut problem).apply(&y, &mut back);
+    Transposed::of(&mut problem, contact).apply(&y, &mut back);
     alike("equations", dot(&y, &forward), dot(&back, &x), 1e-12);
     problem.invert(&x, &mut forward);
-    Transposed::of(&mut problem).invert(&y, &mut back);
+    Transposed::of(&mut problem, contact).invert(&y, &mut back);
     // The small matrix of the motions is inverted twice, by elimination.
     alike("approximate inverse", dot(&y, &forward), dot(&back, &x), 1e-9);
     let (asked, amounts) = (fields(random, contact.cells.len()), array::<MOTIONS>(random));
@@ -323,10 +320,23 @@ fn equations(
     let (to_asked, to_amounts) = problem.right_side_transposed(&y);
     alike("right side", dot(&right, &y), of_fields(&to_asked, &asked) + dot(&to_amounts, &amounts), 1e-12);
     let (tractions, motions) = problem.parted(&x);
-    let (on_tractions, on_motions) = (fields(random, cells), array::<MOTIONS>(random));
-    let unknowns = problem.parted_transposed(&on_tractions, &on_motions);
-    let forward = of_fields(&on_tractions, &tractions) + dot(&on_motions, &motions);
+    let mut counts = Solution {
+        tractions: fields(random, cells),
+        displacements: super::linearised::zeros(cells),
+        motions: array(random),
+    };
+    let (unknowns, _) = problem.left_of(&counts, &vec![0.0; size]);
+    let forward = of_fields(&counts.tractions, &tractions) + dot(&counts.motions, &motions);
     alike("tractions", forward, dot(&unknowns, &x), 1e-12);
+    // Of what displacements count on the whole region, multipliers take off what they make of it.
+    counts.displacements = fields(random, cells);
+    let mut multipliers = y;
+    multipliers[size - MOTIONS..].fill(0.0);
+    let (left, _) = problem.left_of(&counts, &multipliers);
+    Transposed::of(&mut problem, contact).apply(&multipliers, &mut back);
+    let displaced = problem.operators.displacements(&tractions);
+    let forward = forward + of_fields(&counts.displacements, &displaced);
+    alike("what is left", forward, dot(&left, &x) + dot(&back, &x), 1e-12);
 }
 
 /// What an increment is made from: what the two before it left, what it depends on by a number, its controls.
@@ -405,7 +415,7 @@ fn an_increment_goes_backwards_by_its_transpose_block_by_block() {
         each_increment(text, |at, operators| {
             let cells = at.scene.region.len();
             let increment = Increment::new(at.scene, (&at.snapshot.record, at.load), at.now, at.past);
-            let mut equations = increment.equations(operators);
+            let mut equations = increment.equations(operators).unwrap();
             let (made, y) = (Made::random(&mut random, cells), change(&mut random, cells));
             let parts: Vec<Made> =
                 (0..2 * BLOCKS.len() + OF_DRIVE.len()).map(|block| made.only(block, cells)).collect();

@@ -2,22 +2,24 @@
 //! (Betti), and so is its approximate inverse.
 
 use super::cell::{MOTIONS, Prescribed, Shear};
-use super::krylov::LinearProblem;
+use super::change::Solution;
+use super::contact::Contact;
+use super::krylov::{LinearProblem, Trust};
 use super::linearised::{Fields, Linearised, solved, zeros};
 use crate::fields::{add_scaled, dot};
 
 /// The transposed problem.
 pub(super) struct Transposed<'a, 'b> {
     problem: &'a mut Linearised<'b>,
-    /// Displacements by what the cells saw the last time, packed.
-    pub moved: Fields,
+    contact: &'a Contact<'a>,
+    /// How the friction coefficient and the shear strength count by what the cells saw the last time.
+    aside: [f64; 2],
 }
 
 impl<'a, 'b> Transposed<'a, 'b> {
-    /// That of a problem.
-    pub fn of(problem: &'a mut Linearised<'b>) -> Self {
-        let moved = zeros(problem.cells.len());
-        Self { problem, moved }
+    /// That of the problem of a contact.
+    pub fn of(problem: &'a mut Linearised<'b>, contact: &'a Contact<'a>) -> Self {
+        Self { problem, contact, aside: [0.0; 2] }
     }
 }
 
@@ -39,16 +41,35 @@ impl Linearised<'_> {
         }
     }
 
-    /// The transpose of the tractions and motions of a vector of unknowns, from all cells of the region.
-    pub fn parted_transposed(&self, tractions: &Fields, motions: &[f64; MOTIONS]) -> Vec<f64> {
-        let mut unknowns = vec![0.0; self.len()];
-        let packed = tractions.each_ref().map(|field| self.contact.packed(field));
-        self.tractions_transposed(&packed, &mut unknowns);
-        let n = self.cells.len();
-        for (unknown, motion) in unknowns[3 * n..].iter_mut().zip(motions) {
-            *unknown = motion * self.own[0];
+    /// What tractions and displacements count that are given on all cells of the region, and motions, less what multipliers `rows` make of them, none of
+    /// them those of motions: the right side of the transposed equations that is left, and what tractions in the contact count, packed. With no
+    /// multipliers and no displacements this is the transpose of [`parted`](Self::parted).
+    pub fn left_of(&mut self, counts: &Solution, rows: &[f64]) -> (Vec<f64>, Fields) {
+        let mut own = vec![0.0; self.len()];
+        let seen = self.cell_rows_transposed(rows, &mut own);
+        let mut displacements = counts.displacements.clone();
+        for (displacement, seen) in displacements.iter_mut().zip(&seen) {
+            for (place, cell) in self.contact.cells().enumerate() {
+                displacement[cell] -= seen[place];
+            }
         }
-        unknowns
+        let mut tractions = counts.tractions.each_ref().map(|field| self.contact.packed(field));
+        // The elastic response is its own transpose.
+        if displacements.iter().flatten().any(|value| *value != 0.0) {
+            for (traction, by) in
+                tractions.iter_mut().zip(self.operators.in_contact(self.contact, &displacements))
+            {
+                add_scaled(traction, 1.0, &by);
+            }
+        }
+        let mut left = vec![0.0; self.len()];
+        self.tractions_transposed(&tractions, &mut left);
+        add_scaled(&mut left, -1.0, &own);
+        let by_motions = self.resultants(&seen);
+        for (motion, left) in left[3 * self.cells.len()..].iter_mut().enumerate() {
+            *left = self.own[0] * (counts.motions[motion] + by_motions[motion]);
+        }
+        (left, tractions)
     }
 
     /// The transpose of the right side: of displacements asked for, packed, and of what is prescribed of the motions.
@@ -152,27 +173,22 @@ impl Linearised<'_> {
     fn invert_cells_transposed(&mut self, unknowns: &[f64], equations: &mut [f64]) {
         let n = self.cells.len();
         let unit = self.own[0];
-        let mut pressure = vec![0.0; n];
-        self.operators.preconditioner.pressure(&unknowns[..n], &mut pressure, &self.weights);
-        let (mut x, mut y) = (vec![0.0; n], vec![0.0; n]);
+        let mut right = zeros(n);
         for (place, cell) in self.cells.iter().enumerate() {
             let own = [unknowns[n + place], unknowns[2 * n + place]];
-            [x[place], y[place]] = match cell.shear {
+            let [x, y] = match cell.shear {
                 Shear::Held => own,
                 Shear::HeldAlong(0) => [own[0], 0.0],
                 Shear::HeldAlong(_) => [0.0, own[0]],
                 Shear::Turns { .. } => cell.across().map(|part| part * own[0]),
                 Shear::Follows => [0.0; 2],
             };
+            (right[0][place], right[1][place], right[2][place]) = (unknowns[place], x, y);
         }
-        let mut shear = [vec![0.0; n], vec![0.0; n]];
-        if self.operators.frictional {
-            let [to_x, to_y] = &mut shear;
-            self.operators.preconditioner.shear(([&x, &y], None), [to_x, to_y], &mut self.weights);
-        }
+        let [pressure, x, y] = self.operators.removed(&right, &mut self.weights);
         for (place, cell) in self.cells.iter().enumerate() {
             let own = [unknowns[n + place], unknowns[2 * n + place]];
-            let found = [shear[0][place], shear[1][place]];
+            let found = [x[place], y[place]];
             equations[place] = unit * pressure[place];
             [equations[n + place], equations[2 * n + place]] = match cell.shear {
                 Shear::Held => found.map(|part| unit * part),
@@ -194,8 +210,8 @@ impl LinearProblem for Transposed<'_, '_> {
         let n = problem.cells.len();
         unknowns.fill(0.0);
         let seen = problem.cell_rows_transposed(rows, unknowns);
-        self.moved = problem.moved(&seen);
-        let mut tractions = self.moved.clone();
+        let mut tractions = problem.operators.moved(&seen);
+        self.aside = self.contact.given_transposed(&tractions);
         problem.resultants_transposed(&problem.of_resultants(&rows[3 * n..]), &mut tractions);
         let mut of_tractions = vec![0.0; unknowns.len()];
         problem.tractions_transposed(&tractions, &mut of_tractions);
@@ -212,6 +228,14 @@ impl LinearProblem for Transposed<'_, '_> {
 
     fn hurry(&mut self, may: bool) -> bool {
         self.problem.hurry(may)
+    }
+
+    fn trust(&mut self) -> &mut Trust {
+        self.problem.trust()
+    }
+
+    fn aside(&self) -> [f64; 2] {
+        self.aside
     }
 
     fn invert(&mut self, unknowns: &[f64], rows: &mut [f64]) {

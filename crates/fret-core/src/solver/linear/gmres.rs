@@ -21,13 +21,14 @@ impl<N: Number> Gmres<N> {
         &mut self.right
     }
 
-    /// Finds `combination` so that `apply(combination)` is near the right side: to `target`, in `most` applications at the most.
+    /// Finds `combination` so that `apply(combination)` is near the right side: to `target`, in `most` applications at the most. Tells the amounts of
+    /// what was applied to, in its order, and the size of what is left, as the method counts it.
     pub fn solve(
         &mut self,
         mut apply: impl FnMut(&ContactVector<N>, &mut ContactVector<N>),
         (target, most): (f64, usize),
         combination: &mut ContactVector<N>,
-    ) {
+    ) -> (Vec<f64>, f64) {
         let Self { right, basis } = self;
         // Columns of the upper triangle, rotations that made it one, and the rotated right side.
         let mut columns: Vec<Vec<f64>> = Vec::new();
@@ -73,6 +74,8 @@ impl<N: Number> Gmres<N> {
         for (amount, direction) in parts {
             add_scaled(combination.values_mut(), *amount, direction.values());
         }
+        let left = rotated.get(amounts.len()).map_or(1.0, |left| left.abs());
+        (amounts, left)
     }
 }
 

@@ -6,7 +6,7 @@ use crate::compliance::SharedWorkspace;
 use crate::fields::{Number, convert, dot, norm};
 use fret_fft::{PeriodicProduct, SingleProduct};
 
-/// A product of one or two fields that approximates the inverse of an operator.
+/// A product of one to three fields that approximates the inverse of an operator.
 pub enum Inverse {
     /// In double precision.
     Double(PeriodicProduct),
@@ -61,7 +61,7 @@ impl Inverse {
         Self::Double(product)
     }
 
-    /// `factor` times what would remove `right`, before any restriction; one or two fields packed over the contact that `fields` are ready
+    /// `factor` times what would remove `right`, before any restriction; one to three fields packed over the contact that `fields` are ready
     /// for.
     pub fn apply<N: Number>(
         &self,
