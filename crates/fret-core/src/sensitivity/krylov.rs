@@ -83,7 +83,7 @@ pub(super) fn solve(problem: &mut impl LinearProblem, right: &[f64], allowed: f6
             found.left *= counted;
             break;
         }
-        residual(problem, right, &found.unknowns, &mut left);
+        found.look(problem, right, &mut left);
         let now = norm(&left);
         if aim >= least {
             problem.trust().learn(hurries, [counted * found.left, now]);
@@ -100,26 +100,27 @@ pub(super) fn solve(problem: &mut impl LinearProblem, right: &[f64], allowed: f6
             if !hurries {
                 break;
             }
-            residual(problem, right, &found.unknowns, &mut left);
+            found.look(problem, right, &mut left);
         }
     }
     found
 }
 
 impl Found {
+    /// What the equations leave of the right side with the unknowns; and what these have besides, which single precision told with its errors.
+    fn look(&mut self, problem: &mut impl LinearProblem, right: &[f64], left: &mut [f64]) {
+        problem.apply(&self.unknowns, left);
+        self.aside = problem.aside();
+        for (left, right) in left.iter_mut().zip(right) {
+            *left = right - *left;
+        }
+    }
+
     fn add(&mut self, factor: f64, step: &Step) {
         add_scaled(&mut self.unknowns, factor, &step.unknowns);
         for (aside, step) in self.aside.iter_mut().zip(step.aside) {
             *aside += factor * step;
         }
-    }
-}
-
-/// What the equations leave of the right side with a solution.
-fn residual(problem: &mut impl LinearProblem, right: &[f64], solution: &[f64], left: &mut [f64]) {
-    problem.apply(solution, left);
-    for (left, right) in left.iter_mut().zip(right) {
-        *left = right - *left;
     }
 }
 
@@ -211,7 +212,7 @@ mod tests {
             assert!(found.unknowns.iter().zip(&known).all(|(found, known)| (found - known).abs() < off));
             assert!((found.aside[0] - aside).abs() < 10.0 * off && found.aside[1] == 0.0, "{found:?}");
             let mut left = vec![0.0; 40];
-            residual(&mut problem, &right, &found.unknowns, &mut left);
+            found.clone().look(&mut problem, &right, &mut left);
             assert!((norm(&left) - found.left).abs() < 1e-13 * size, "{:e} {found:?}", norm(&left));
         }
         let nothing = |left: f64| Found { unknowns: vec![0.0; 40], aside: [0.0; 2], left };
