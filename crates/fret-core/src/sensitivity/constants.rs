@@ -1,8 +1,8 @@
 //! The constants of bodies: derivatives of the response by them, and how objectives change with each, summed over the increments.
 
 use super::error::SensitivityError;
+use super::fields::Fields;
 use super::forward::response_by;
-use super::linearised::Fields;
 use super::operators::displacements;
 use super::parameter::Parameter;
 use super::scene::Scene;

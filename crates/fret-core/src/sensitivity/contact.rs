@@ -2,7 +2,7 @@
 
 use super::cell::{Cell, MOTIONS, Prescribed, Shear};
 use super::change::{Change, Tangential};
-use super::linearised::{Fields, zeros};
+use super::fields::{Fields, zeros};
 use super::loads::Load;
 use super::rule::{PathChange, Rule};
 use super::scene::{MOTION_OF, Scene};

@@ -7,8 +7,9 @@ use super::cell::{MOTIONS, Prescribed};
 use super::change::{Change, Solution};
 use super::contact::{Asked, Contact, Drive};
 use super::error::SensitivityError;
+use super::fields::{Fields, zeros};
 use super::krylov;
-use super::linearised::{Fields, Linearised, zeros};
+use super::linearised::Linearised;
 use super::loads::Load;
 use super::operators::Operators;
 use super::rule::{Cells, PathChange, Rule};
@@ -104,7 +105,7 @@ impl<'a> Increment<'a> {
     ) -> Result<(), f64> {
         let mut paths = PathChange::none(self.contact.cells.len());
         let solution = self.after.transposed(&mut next, before, (&mut paths, drive));
-        let asked = self.solve_transposed(equations, solution, drive, largest)?;
+        let asked = self.solve_transposed(equations, &solution, drive, largest)?;
         self.contact.asked_transposed(&asked, [before, &mut next], (&mut paths, drive));
         self.rule.transposed(paths, [before, former, &mut next], self.contact.set);
         self.load.transposed(&next, before, numbers);
@@ -160,17 +161,17 @@ impl<'a> Increment<'a> {
     fn solve_transposed(
         &self,
         equations: &mut Linearised<'_>,
-        solution: Solution,
+        solution: &Solution,
         drive: &mut Drive,
         largest: &mut f64,
     ) -> Result<Asked, f64> {
         // Where all that counts is what displacements in the contact count, the cells see just that: what is left is solved for.
         let packed = solution.displacements.each_ref().map(|field| self.contact.set.packed(field));
         let mut multipliers = equations.rows_of(&packed);
-        let (left, mut tractions) = equations.left_of(&solution, &multipliers);
+        let (left, mut tractions) = equations.left_of(solution, &multipliers);
         let size = norm(&left);
         // A residual changes the derivatives by its product with the change of the solution, which is of the size of the solution.
-        *largest = largest.max(self.product(&solution)).max(size * self.size);
+        *largest = largest.max(self.product(solution)).max(size * self.size);
         let wanted = target_backwards(self.scene.plan.case.tolerance);
         let allowed = if self.size > 0.0 { wanted * (*largest / self.size) } else { wanted * size };
         let found = krylov::solve(&mut Transposed::of(equations, &self.contact), &left, allowed);

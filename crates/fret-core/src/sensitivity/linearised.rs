@@ -12,18 +12,11 @@
 
 use super::cell::{Cell, MOTIONS, Prescribed, Shear};
 use super::error::SensitivityError;
+use super::fields::{Fields, zeros};
 use super::krylov::{LinearProblem, Trust};
 use super::operators::Operators;
 use crate::fields::add_scaled;
 use crate::solver::{ContactSet, SlipWeights};
-
-/// A field of tractions or displacements: normal, along x and y.
-pub(super) type Fields = [Vec<f64>; 3];
-
-/// Fields of zeros.
-pub(super) fn zeros(cells: usize) -> Fields {
-    [(); 3].map(|()| vec![0.0; cells])
-}
 
 /// The linearised equations of one increment.
 pub(super) struct Linearised<'a> {

@@ -16,6 +16,7 @@ mod energies;
 mod error;
 mod events;
 mod field_weights;
+mod fields;
 mod forward;
 mod gradient;
 mod increment;

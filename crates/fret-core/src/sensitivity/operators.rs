@@ -4,8 +4,8 @@
 use std::sync::Arc;
 
 use super::error::SensitivityError;
+use super::fields::{Fields, zeros};
 use super::krylov::Trust;
-use super::linearised::{Fields, zeros};
 use crate::compliance::{OperatorSet, SelfInfluence, SpectralCompliance, SurfaceCompliance};
 use crate::fields::norm;
 use crate::run::PairCompliance;

@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use super::linearised::zeros;
+use super::fields::zeros;
 use super::loads::{Load, Prescribed};
 use super::operators::Operators;
 use super::rule::{Cells, Rule};

@@ -6,7 +6,7 @@ use ndarray::Array2;
 
 use super::cell::MOTIONS;
 use super::change::{Reached, Tangential};
-use super::linearised::{Fields, zeros};
+use super::fields::{Fields, zeros};
 use super::loads::Load;
 use super::scene::Scene;
 use crate::model::{CoulombFriction, LoadStep, Zone};

@@ -4,8 +4,9 @@
 use super::cell::{MOTIONS, Prescribed, Shear};
 use super::change::Solution;
 use super::contact::Contact;
+use super::fields::{Fields, zeros};
 use super::krylov::{LinearProblem, Trust};
-use super::linearised::{Fields, Linearised, solved, zeros};
+use super::linearised::{Linearised, solved};
 use crate::fields::{add_scaled, dot};
 
 /// The transposed problem.

@@ -41,7 +41,7 @@ impl ContactSolver<'_> {
 
 impl ContactSolver<'_> {
     /// Solves the equations of surfaces that may yield. Where nothing was at the hardness before they are solved as elastic ones first, which they
-    /// are as long as nothing is; `yields`: that would be in vain.
+    /// are as long as nothing is; `yields`: that need not be tried.
     pub(super) fn solve_to_hardness(
         &self,
         operators: &mut RegionOperators,
