@@ -122,8 +122,8 @@ impl<'a> After<'a> {
             }
         }
         let mut solution = Solution {
-            tractions: super::linearised::zeros(cells),
-            displacements: super::linearised::zeros(cells),
+            tractions: super::fields::zeros(cells),
+            displacements: super::fields::zeros(cells),
             motions: [0.0; MOTIONS],
         };
         if next.energies != [0.0; 4] {

@@ -78,8 +78,8 @@ impl Change {
 /// them.
 #[derive(Debug, Clone)]
 pub(super) struct Solution {
-    pub tractions: super::linearised::Fields,
-    pub displacements: super::linearised::Fields,
+    pub tractions: super::fields::Fields,
+    pub displacements: super::fields::Fields,
     pub motions: [f64; MOTIONS],
 }
 

@@ -323,7 +323,7 @@ fn equations(random: &mut Random, contact: &Contact<'_>, operators: &mut Operato
     let (tractions, motions) = problem.parted(&x);
     let mut counts = Solution {
         tractions: fields(random, cells),
-        displacements: super::linearised::zeros(cells),
+        displacements: super::fields::zeros(cells),
         motions: array(random),
     };
     let (unknowns, _) = problem.left_of(&counts, &vec![0.0; size]);
