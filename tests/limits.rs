@@ -400,8 +400,10 @@ fn automatic_sizes_hold_strong_friction_that_slides() {
     let loads = "[[load]]\nnormal_force = 12.0\nincrements = 3\n[[load]]\nshift = [1e-5, 0.0]\ncycles = 1\nincrements = 8\n";
     for cells in [24, 48] {
         let history = solved(&ball(cells, "\"auto\"", "coefficient = 3.0", loads));
-        let last = history.steps.last().unwrap();
-        assert!((last.tangential_force[0].abs() / 36.0 - 1.0).abs() < 1e-6, "it slides: {last:?}");
+        assert!(history.steps.iter().all(|step| step.footprint.free >= 1));
+        // of 3 P = 36 N all but what a few cells that still stick may carry more
+        let pulled = history.steps.iter().map(|step| step.tangential_force[0].abs()).fold(0.0, f64::max);
+        assert!(pulled > 35.9 && pulled < 36.0 + 1e-6, "{pulled}");
     }
 }
 
