@@ -37,7 +37,6 @@ pub struct DebrisRule {
     pub outflow_length: Option<f64>,
     /// Pressure that would press it to nothing if it went on as it begins [pressure]: a layer of thickness b gives by p b over this. `None`: it does
     /// not give.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<f64>,
 }
 
