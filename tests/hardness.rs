@@ -2,12 +2,13 @@
 //! dense matrix of Love's closed form, by Hertz's load at first yield, by the bearing area of a rigid surface, and by what must not matter.
 
 use std::f64::consts::PI;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use fret_core::case::{Attachments, Case};
 use fret_core::history::{History, Start};
 use fret_core::plan::{LeaveOut, Plan, Simplification};
-use fret_core::run::{Silent, Simulation};
+use fret_core::run::{Checkpoint, Observer, Silent, Simulation, Waypoint, beginnings};
 use fret_validation::{
     Sphere, by_end_points, off_first_law, pressed_on_half_space, run, solved, solved_with,
 };
@@ -468,4 +469,81 @@ fn what_yields_is_not_combined_with_what_is_not_known() {
     refused("shift = [1e-3, 0.0]", "roll = 0.1", "roll with a hardness");
     refused("rigid = true", "rigid = true\nhardness = 1.0", "a body that is rigid does not yield");
     refused("hardness = ", "hardness = -", "must be a positive finite pressure");
+}
+
+fn plan_of(text: &str) -> Plan {
+    Plan::new(Case::from_toml(text, "case.toml").unwrap()).unwrap()
+}
+
+/// The points of a sweep solve what they begin with in common once: not where they yield at another pressure. What is kept is no matter.
+#[test]
+fn histories_of_another_hardness_have_no_beginning_in_common() {
+    let more = "[[load]]\nnormal_force = 1e-6\nincrements = 2\n";
+    let of = |text: &str| beginnings(&plan_of(text));
+    let (one, other) = (of(&ball(0.7, 1.0, more)), of(&ball(0.8, 1.0, more)));
+    assert!(one.len() == 2 && one.iter().zip(&other).all(|(one, other)| one != other));
+    assert_eq!(one, of(&keeping(&ball(0.7, 1.0, more))));
+}
+
+/// Keeps the bytes of the last waypoint.
+struct Last(Vec<u8>);
+
+impl Observer for Last {
+    fn reached(&mut self, waypoint: &Waypoint<'_>) -> ControlFlow<()> {
+        self.0.clear();
+        waypoint.write(&mut self.0).unwrap();
+        ControlFlow::Continue(())
+    }
+}
+
+/// Elastic under a force and interrupted; pulled from there by another case, under the same force: the pressure is no longer that of before.
+/// Of bodies that do not couple, whose pressure is kept otherwise.
+#[test]
+fn an_interrupted_history_is_continued_with_a_hardness() {
+    let sphere = Sphere { size: 4.0, tolerance: 1e-9, identical: true, friction: 0.3, ..Sphere::default() };
+    let head = sphere.head();
+    let pressed = format!("{head}[[load]]\nnormal_force = {:e}\nincrements = 1\n", sphere.force());
+    let plan = plan_of(&pressed);
+    let mut last = Last(Vec::new());
+    let elastic = Simulation::new(&plan).run(&mut last).unwrap();
+    let start = Arc::new(Checkpoint::start_of(&last.0, &plan.to_json()).unwrap());
+    let hardness = 0.7 * elastic.steps[0].max_pressure;
+    let pulled =
+        format!("{head}[[load]]\ntangential_force = [{:e}, 0.0]\nincrements = 2\n", 0.1 * sphere.force());
+    let continued = |text: &str| {
+        let attachments = Attachments { start: Some(start.solved.loads), ..Attachments::none() };
+        let case = Case::from_toml_with(text, "case.toml", attachments).unwrap();
+        let plan = Plan::starting_from(Some(start.clone()), case, LeaveOut::ALL).unwrap();
+        Simulation::new(&plan).run(&mut Silent).unwrap()
+    };
+    let yielded = continued(&with_hardness(&pulled, hardness));
+    let whole = solved(&with_hardness(&pressed, hardness));
+    for step in &yielded.steps {
+        assert!(step.max_pressure <= hardness, "{} of {hardness}", step.max_pressure);
+        // Two ways to one solution, each to the tolerance.
+        assert!((step.approach / whole.steps[0].approach - 1.0).abs() < 1e-6);
+    }
+    // Without one the pressure is that of before.
+    assert_eq!(continued(&pulled).steps[1].max_pressure, elastic.steps[0].max_pressure);
+}
+
+/// The frame of a contact that rolls would leave a crater behind.
+#[test]
+fn a_contact_with_a_crater_rolls_in_the_frame_of_the_bodies() {
+    let history = solved(&keeping(&ball(0.7, 1.0, "")));
+    let start = Arc::new(Start::of(&history, 0).unwrap());
+    let head = Sphere { size: 4.0, tolerance: 1e-9, ..Sphere::default() }.head();
+    let step = history.grid.spacing()[0];
+    let rolled = |frame: &str| {
+        let text = format!(
+            "{head}[kinematics]\nframe = \"{frame}\"\n[[load]]\nroll = [{:e}, 0.0]\nincrements = 2\n",
+            2.0 * step
+        );
+        let attachments = Attachments { start: Some(start.solved.loads), ..Attachments::none() };
+        let case = Case::from_toml_with(&text, "case.toml", attachments).unwrap();
+        Plan::starting_from(Some(start.clone()), case, LeaveOut::ALL).map_err(|error| error.to_string())
+    };
+    let error = rolled("contact").unwrap_err();
+    assert!(error.contains("have worn or yielded"), "{error}");
+    assert!(rolled("bodies").is_ok());
 }

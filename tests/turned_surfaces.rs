@@ -167,3 +167,16 @@ fn bodies_that_turn_wear_and_nothing_is_lost() {
         }
     }
 }
+
+/// An ellipse that turns by a right angle lies across: the automatic grid holds it all the way.
+#[test]
+fn an_automatic_size_holds_a_contact_that_turns() {
+    let text = format!(
+        "[grid]\ncells = [32, 32]\nsize = \"auto\"\n[upper]\nrigid = true\n[lower]\nsubstrate = {{ young = 1.0, poisson = 0.3 }}\n\
+         [profile.ellipsoid]\nradius_x = 400.0\nradius_y = 40.0\n{FINITE}[friction]\ncoefficient = 0.3\n\
+         [[load]]\nnormal_force = 1e-2\nincrements = 1\n[[load]]\ntwist = {FRAC_PI_2:?}\nincrements = 6\n"
+    );
+    let history = solved(&text);
+    let [dx, dy] = history.grid.spacing();
+    assert!((dx / dy - 1.0).abs() < 1e-12 && history.steps.iter().all(|step| step.footprint.free >= 1));
+}

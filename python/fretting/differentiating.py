@@ -18,13 +18,13 @@ class NearEvents(NamedTuple):
     increment: int
     """Its number, from 0."""
     cells: int
-    """Cells within a millionth of another state, by the largest pressure, friction bound or displacement."""
+    """Cells within a millionth of another state, by the maximum contact pressure, friction bound or displacement."""
     contact_cells: int
     """Cells in contact."""
 
     @property
     def share(self) -> float:
-        """Share of such cells in those in contact."""
+        """Fraction of such cells in those in contact."""
         return self.cells / self.contact_cells
 
 

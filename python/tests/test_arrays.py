@@ -49,7 +49,7 @@ def test_steps_are_columns_of_one_entry_an_increment(history: fretting.History) 
 def test_fields_are_nx_by_ny_and_the_callers_own(history: fretting.History) -> None:
     for name in sorted(
         {*get_args(FieldName)}
-        - {"worn_depth", "lower_worn_depth", "upper_worn_depth", "debris", "friction_work", "friction"}
+        - {"worn_depth", "lower_worn_depth", "upper_worn_depth", "debris", "plastic_depth", "friction_work", "friction"}
     ):  # not asked for here
         field = history.field(name)
         assert field.shape == (32, 24), name
@@ -164,7 +164,7 @@ def test_history_survives_pickling(history: fretting.History) -> None:
     assert again.kept_increments == history.kept_increments
     for name in sorted(
         {*get_args(FieldName)}
-        - {"worn_depth", "lower_worn_depth", "upper_worn_depth", "debris", "friction_work", "friction"}
+        - {"worn_depth", "lower_worn_depth", "upper_worn_depth", "debris", "plastic_depth", "friction_work", "friction"}
     ):  # not asked for here
         np.testing.assert_array_equal(again.field(name, 4), history.field(name, 4))
     for name, column in history.increments.items():

@@ -51,7 +51,7 @@ QUERIES = {
     "known failures": {"limits.html"},
     "fatigue parameters": {"theory/subsurface-stress.html", "do/subsurface-stresses.html"},
     "roughness": {"do/describe-the-bodies.html"},
-    "asperities Greenwood Williamson": {"do/line-contact-and-periodic-surfaces.html"},
+    "asperities Greenwood Williamson": {"do/line-contact-and-periodic-surfaces.html", "do/describe-the-bodies.html"},
     "profilometer": {"learn/install.html", "do/describe-the-bodies.html"},
     "hardness": {"do/identify-indentation.html", "do/describe-the-bodies.html", "faq.html"},
     "Berkovich": {"do/identify-indentation.html", "do/describe-the-bodies.html"},

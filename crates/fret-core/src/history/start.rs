@@ -158,7 +158,9 @@ pub(crate) fn way_of_solving(plan: &Value) -> String {
     let case = &plan["case"];
     let shortcuts =
         ["coupling", "along", "symmetry", "single_precision", "leave_out"].map(|name| &plan[name]);
-    json!([shortcuts, case["tolerance"], case["scheme"], case["integration"]]).to_string()
+    // what the response and the laws of pressure have besides
+    let gives = [&case["hardness"], &case["wear"]["debris"]["stiffness"]];
+    json!([shortcuts, case["tolerance"], case["scheme"], case["integration"], gives]).to_string()
 }
 
 fn differences(key: &str, case: &Value, state: &Value, found: &mut Vec<Difference>) {

@@ -16,11 +16,11 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::case::{Case, CaseError, CaseRecord, GridSize};
+use crate::case::{Case, CaseError, CaseRecord, Difference, GridSize};
 use crate::history::Start;
 use crate::kernel::{PairResponse, cells_too_coarse_for_incompressible_film};
 use crate::machine::memory::{MemoryError, claim};
-use crate::model::{Body, ContactState, Dimension, SurfaceGrid, Symmetry};
+use crate::model::{Body, ContactState, Dimension, Frame, SurfaceGrid, Symmetry};
 pub use crate::solver::Coupling;
 pub use advance::Advance;
 pub use extent::ExpectedContact;
@@ -216,8 +216,23 @@ impl Plan {
     /// Refuses a state of another setting.
     fn judge_start(&self) -> Result<(), CaseError> {
         let Some(start) = &self.start else { return Ok(()) };
-        let differences = start.differences(&self.to_json());
+        let mut differences = start.differences(&self.to_json());
+        differences.extend(self.marks_that_stay());
         if differences.is_empty() { Ok(()) } else { Err(self.case.refuse_start(&differences)) }
+    }
+
+    /// Marks of wear and yielding in the state to start from, which the frame of a contact that rolls would leave behind.
+    fn marks_that_stay(&self) -> Option<Difference> {
+        let state = &self.start.as_ref()?.solved.state;
+        let is_marked = [&state.worn_depth, &state.upper_worn_depth, &state.debris, &state.plastic_depth]
+            .iter()
+            .any(|mark| mark.as_ref().is_some_and(|depth| depth.iter().any(|depth| *depth != 0.0)));
+        let rolls_on = self.case.rolls() && self.case.kinematics.frame == Frame::Contact;
+        (rolls_on && is_marked).then(|| Difference {
+            key: "kinematics.frame".to_owned(),
+            case: "\"contact\"".to_owned(),
+            state: "surfaces that have worn or yielded, which \"bodies\" carries along".to_owned(),
+        })
     }
 
     /// Finds anew what follows from the case and the grid, after these were changed: mirrors, increments, memory.

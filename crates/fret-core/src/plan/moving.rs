@@ -104,12 +104,17 @@ pub fn with_room_to_move(case: &Case, size: [f64; 2]) -> [f64; 2] {
         return size;
     }
     let finite = case.kinematics.is_finite();
-    walk(case.start.as_ref(), &case.stages, |_, [_, x, y, _]| {
+    let mut turns = false;
+    walk(case.start.as_ref(), &case.stages, |_, [_, x, y, twist]| {
+        turns |= finite && matches!(twist, Some(Control::Motion(twist)) if *twist != 0.0);
         for (most, control) in most.iter_mut().zip([x, y]) {
             if let (true, Some(Control::Motion(shift) | Control::FarEnd(shift))) = (finite, control) {
                 *most = most.max(shift.abs());
             }
         }
     });
-    case.dimension().sides([0, 1].map(|axis| size[axis] + 2.0 * most[axis]), case.cells)
+    // A contact that turns reaches as far along one side as along the other.
+    let longest = size[0].max(size[1]);
+    let turned = size.map(|side| if turns { longest } else { side });
+    case.dimension().sides([0, 1].map(|axis| turned[axis] + 2.0 * most[axis]), case.cells)
 }

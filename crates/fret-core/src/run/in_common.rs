@@ -44,15 +44,35 @@ struct CommonCompliance {
     made: Once<PairCompliance>,
 }
 
+/// What of a case no increment depends on, or its setting has by other names.
+const AFTERWARDS: [&str; 12] = [
+    "title",
+    "units",
+    "cells",
+    "size",
+    "bodies",
+    "profile",
+    "residual_stress",
+    "fatigue",
+    "conduction",
+    "log_columns",
+    "output",
+    "stress",
+];
+
 /// For each number of first stages, from one on, a name of all that these depend on: histories that agree in it solve them alike, bit by bit.
 pub fn beginnings(plan: &Plan) -> Vec<String> {
-    let as_json = plan.to_json();
-    let case = &as_json["case"];
-    let rest =
-        ["friction", "friction_evolution", "kinematics", "rig", "wear", "start"].map(|name| &case[name]);
+    let mut as_json = plan.to_json();
+    let (setting, way) = (setting(&as_json), way_of_solving(&as_json));
+    let stages = as_json["case"]["stages"].take();
+    // All of the case but what only comes after a run.
+    let mut rest = as_json["case"].take();
+    if let Some(rest) = rest.as_object_mut() {
+        rest.retain(|name, _| !AFTERWARDS.contains(&name.as_str()));
+    }
     let start = plan.start.as_ref().map(|start| start.digest().to_owned());
-    let all = json!([setting(&as_json), way_of_solving(&as_json), rest, start]).to_string();
-    let stages = case["stages"].as_array().map_or(&[][..], Vec::as_slice);
+    let all = json!([setting, way, rest, start]).to_string();
+    let stages = stages.as_array().map_or(&[][..], Vec::as_slice);
     (1..=stages.len()).map(|count| digest(format!("{all}{}", json!(stages[..count])).into_bytes())).collect()
 }
 

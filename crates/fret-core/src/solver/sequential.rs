@@ -17,6 +17,9 @@ use crate::model::TangentialField;
 /// So far outside of its circle that no rounding takes it off.
 const ON_CIRCLE: f64 = 1.0 + 1e-9;
 
+/// Tolerances that a pressure which is kept may leave: it was solved to one, by a residual that is summed up otherwise.
+const STILL: f64 = 10.0;
+
 /// Solves an increment from predicted `tractions`. `last`: displacements of the state before, when they are known;
 /// `keeps_pressure`: its pressure is the one asked for.
 ///
@@ -33,10 +36,15 @@ pub fn solve(
     let settings = &increment.limited(settings);
     let cells = increment.region.len();
     let mut displacements = Displacements::zeros(cells);
-    let pressure = if let (true, Some(last)) = (keeps_pressure, last) {
+    let mut kept = None;
+    if let (true, Some(last)) = (keeps_pressure, last) {
         tractions.pressure = increment.region.gather(&increment.state.pressure);
         displacements.normal.clone_from(&last.normal);
-        pressure_before(increment, &displacements, &tractions, operators)
+        let pressure = pressure_before(increment, &displacements, &tractions, operators);
+        kept = Some(pressure).filter(|kept| kept.residual.residual <= STILL * settings.tolerance);
+    }
+    let pressure = if let Some(kept) = kept {
+        kept
     } else {
         let usable = project_pressure(
             &mut tractions.pressure,
