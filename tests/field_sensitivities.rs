@@ -5,7 +5,7 @@ use fret_core::sensitivity::{SensitivityError, Weights, pulled_back};
 use fret_validation::random::Random;
 use ndarray::Array2;
 
-use crate::sensitivities::planned;
+use crate::sensitivities::{Written, planned};
 
 /// A coated body under a rigid ball, both forces growing, and a cycle; half of it is solved for.
 const COATED: &str = r"
@@ -40,10 +40,7 @@ const NUMBERS: [(&str, f64, &str); 5] = [
 ];
 
 fn text(moved: Option<(usize, f64)>) -> String {
-    NUMBERS.iter().enumerate().fold(COATED.to_owned(), |text, (number, (name, value, _))| {
-        let factor = moved.filter(|(which, _)| *which == number).map_or(1.0, |(_, by)| 1.0 + by);
-        text.replace(&format!("<{name}>"), &format!("{:e}", value * factor))
-    })
+    Written { text: COATED, numbers: &NUMBERS }.case(moved)
 }
 
 /// Derivatives by all numbers, backwards, and by each alone, forward.
@@ -124,7 +121,7 @@ fn fields_without_derivatives_are_refused() {
     assert!(refused("increments[99].pressure", ones()).contains("11 increments"));
     assert!(refused("pressure", Array2::ones((24, 12))).contains("24 x 12 weights"));
     assert!(refused("pressure", ones() * f64::NAN).contains("finite"));
-    // Pressure and shear of like bodies begin to act on each other with another constant.
+    // Pressure and shear of elastically similar bodies are coupled as soon as one has another constant.
     let like = planned(
         &text(None)
             .replace("coatings = [{ thickness = 4e-1, young = 3.0, poisson = 0.35 }]\n", "")

@@ -394,7 +394,7 @@ fn automatic_sizes_hold_soft_films_that_slide() {
 }
 
 /// Few cells have wide edges: what a fifth of the width leaves free is less than half a cell of four.
-/// Friction of three times the pressure moves the contact of unlike bodies while it slides: none of it at the grid's edge.
+/// Friction of three times the pressure moves the contact of elastically dissimilar bodies while it slides: none of it at the grid's edge.
 #[test]
 fn automatic_sizes_hold_strong_friction_that_slides() {
     let loads = "[[load]]\nnormal_force = 12.0\nincrements = 3\n[[load]]\nshift = [1e-5, 0.0]\ncycles = 1\nincrements = 8\n";

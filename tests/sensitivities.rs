@@ -9,10 +9,10 @@ use fret_core::sensitivity::{Direction, Request, Sensitivities, SensitivityError
 use fret_validation::random::Random;
 
 /// A case with names in angle brackets for its numbers.
-struct Written<'a> {
-    text: &'a str,
+pub struct Written<'a> {
+    pub text: &'a str,
     /// Name, value, path.
-    numbers: &'a [(&'a str, f64, &'a str)],
+    pub numbers: &'a [(&'a str, f64, &'a str)],
 }
 
 fn value_of(record: &StepRecord, column: &str) -> f64 {
@@ -41,13 +41,18 @@ fn found_along(
 }
 
 impl Written<'_> {
-    fn plan(&self, moved: Option<(usize, f64)>) -> Plan {
+    /// The case with its numbers, one of which is `moved` by a fraction of itself.
+    pub fn case(&self, moved: Option<(usize, f64)>) -> String {
         let mut text = self.text.to_owned();
         for (number, (name, value, _)) in self.numbers.iter().enumerate() {
             let factor = moved.filter(|(which, _)| *which == number).map_or(1.0, |(_, by)| 1.0 + by);
             text = text.replace(&format!("<{name}>"), &format!("{:e}", value * factor));
         }
-        planned(&text)
+        text
+    }
+
+    fn plan(&self, moved: Option<(usize, f64)>) -> Plan {
+        planned(&self.case(moved))
     }
 
     fn columns(&self, columns: &[&str], moved: Option<(usize, f64)>) -> Vec<Vec<f64>> {
