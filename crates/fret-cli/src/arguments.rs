@@ -1,11 +1,11 @@
 //! What can be typed after `fret`. What it does lives in `commands`.
 
 use std::path::PathBuf;
-use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::threads;
+use crate::scatter::Scatter;
+use crate::threads::{self, Threads};
 
 /// Fretting and partial slip of coated elastic contacts: pressure, shear, stick and slip zones through a loading history.
 #[derive(Debug, Parser)]
@@ -29,21 +29,9 @@ pub enum Verb {
     /// Solve a case
     Run(RunArguments),
     /// Validate a case: report all errors at once, each with line, column and a suggested fix
-    Check {
-        /// The case file (TOML); - reads it from standard input
-        case: PathBuf,
-        /// Start from a solved state, as `fret run` does
-        #[arg(long, value_name = "RESULTS[:INCREMENT]")]
-        from: Option<String>,
-    },
+    Check(PlannedArguments),
     /// Print the discretisation, the expected cost and the automatic simplifications; solve nothing
-    Plan {
-        /// The case file (TOML); - reads it from standard input
-        case: PathBuf,
-        /// Start from a solved state, as `fret run` does
-        #[arg(long, value_name = "RESULTS[:INCREMENT]")]
-        from: Option<String>,
-    },
+    Plan(PlannedArguments),
     /// Write a case to begin with, with units and comments; without a name the list of them
     Init {
         /// Which one: ball-on-flat, coated, cylinder, rig-log, wear, rolling, rough, indentation
@@ -107,6 +95,27 @@ pub enum Verb {
     Sweep(SweepArguments),
 }
 
+/// With how many threads, and how much is told.
+#[derive(Debug, Args)]
+pub struct Manner {
+    /// Threads.
+    #[command(flatten)]
+    pub threads: Threads,
+    /// Print only errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// Which case is planned.
+#[derive(Debug, Args)]
+pub struct PlannedArguments {
+    /// The case file (TOML); - reads it from standard input
+    pub case: PathBuf,
+    /// Start from a solved state, as `fret run` does
+    #[arg(long, value_name = "RESULTS[:INCREMENT]")]
+    pub from: Option<String>,
+}
+
 /// Of what derivatives are taken, and by what.
 #[derive(Debug, Args)]
 pub struct SensitivityArguments {
@@ -124,36 +133,9 @@ pub struct SensitivityArguments {
     /// first order, and what each number brings
     #[arg(long, value_name = "PATH=DEVIATION")]
     pub scatter: Vec<Scatter>,
-    /// Number of threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = threads::number)]
-    pub threads: Option<u16>,
-}
-
-/// A number of a case with its standard deviation.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Scatter {
-    /// Its path.
-    pub path: String,
-    /// The deviation, of the unit of the number, or relative to it.
-    pub deviation: f64,
-    /// Whether it is relative.
-    pub relative: bool,
-}
-
-impl FromStr for Scatter {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let form = "expected a number of the case and its standard deviation, friction.coefficient=0.03 or friction.coefficient=10%";
-        let (path, deviation) = text.rsplit_once('=').ok_or(form)?;
-        let (number, unit) = deviation.strip_suffix('%').map_or((deviation, 1.0), |number| (number, 0.01));
-        let number: f64 = number.trim().parse().map_err(|_| form)?;
-        if !(number.is_finite() && number > 0.0) {
-            return Err(format!("{deviation}: a standard deviation is positive"));
-        }
-        let relative = deviation.ends_with('%');
-        Ok(Self { path: path.trim().to_owned(), deviation: number * unit, relative })
-    }
+    /// Threads.
+    #[command(flatten)]
+    pub threads: Threads,
 }
 
 /// How to solve a case.
@@ -164,12 +146,9 @@ pub struct RunArguments {
     /// Folder for the results [default: results/ and the name of the case]
     #[arg(long, short, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Number of threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = threads::number)]
-    pub threads: Option<u16>,
-    /// Print only errors
-    #[arg(long, short)]
-    pub quiet: bool,
+    /// How it is done.
+    #[command(flatten)]
+    pub manner: Manner,
     /// Also print a line for every increment, and a paragraph for the methods section of a paper
     #[arg(long, short, conflicts_with = "quiet")]
     pub verbose: bool,
@@ -221,9 +200,9 @@ pub struct StudyArguments {
     /// Folder for the table and the figure [default: results/ and the name of the case with -study]
     #[arg(long, short, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Number of threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = threads::number)]
-    pub threads: Option<u16>,
+    /// Threads.
+    #[command(flatten)]
+    pub threads: Threads,
     /// Print only errors and the result
     #[arg(long, short)]
     pub quiet: bool,
@@ -240,9 +219,9 @@ pub struct ExploreArguments {
     /// Port of this machine [default: one that is free]
     #[arg(long, value_name = "N", default_value = "0", hide_default_value = true)]
     pub port: u16,
-    /// Number of threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = threads::number)]
-    pub threads: Option<u16>,
+    /// Threads.
+    #[command(flatten)]
+    pub threads: Threads,
 }
 
 /// What to write of a run, in which form.
@@ -295,12 +274,9 @@ pub struct StressArguments {
     /// What `ParaView` reads.
     #[arg(long, help = "Write a volume for ParaView of the last evaluated increment")]
     pub volume: bool,
-    /// Number of threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = threads::number)]
-    pub threads: Option<u16>,
-    /// Print only errors
-    #[arg(long, short)]
-    pub quiet: bool,
+    /// How it is done.
+    #[command(flatten)]
+    pub manner: Manner,
 }
 
 /// Which temperatures and resistances.
@@ -314,12 +290,9 @@ pub struct HeatArguments {
     /// Contact resistance of every N-th kept increment, and the last [default: of the last]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub every: Option<u32>,
-    /// Number of threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = threads::number)]
-    pub threads: Option<u16>,
-    /// Print only errors
-    #[arg(long, short)]
-    pub quiet: bool,
+    /// How it is done.
+    #[command(flatten)]
+    pub manner: Manner,
 }
 
 /// How to solve many cases.
@@ -405,10 +378,7 @@ pub struct IdentifyArguments {
     /// Folder for the answer [default: results/ and the name of the log with -identified]
     #[arg(long, short, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Number of threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = threads::number)]
-    pub threads: Option<u16>,
-    /// Print only errors
-    #[arg(long, short)]
-    pub quiet: bool,
+    /// How it is done.
+    #[command(flatten)]
+    pub manner: Manner,
 }

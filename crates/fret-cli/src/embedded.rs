@@ -168,7 +168,7 @@ pub fn study(
         tolerances,
         against,
         out: None,
-        threads: None,
+        threads: threads::Threads::default(),
         quiet: true,
     };
     let question = Question::new(&arguments, plan)?;

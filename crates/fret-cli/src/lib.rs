@@ -18,6 +18,7 @@ mod interrupt;
 mod methods;
 mod progress;
 mod report;
+mod scatter;
 mod study;
 mod summary;
 mod sweep;
@@ -76,8 +77,8 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
                 .to_owned(),
         )),
         Verb::Man { out: Some(out) } => commands::shells::pages(out),
-        Verb::Check { case, from } => commands::check::check(case, from.as_deref()),
-        Verb::Plan { case, from } => commands::plan::plan(case, from.as_deref()),
+        Verb::Check(arguments) => commands::check::check(arguments),
+        Verb::Plan(arguments) => commands::plan::plan(arguments),
         Verb::Init { template, out } => commands::init::init(template.as_deref(), out.as_deref()),
         Verb::Explain { warning } => commands::explain::explain(warning.as_deref()),
         Verb::Report { results, out } => commands::report::report(results, out.as_deref()),

@@ -1,9 +1,25 @@
 //! Threads of a command: as many as asked for, or all that the machine has.
 
+use clap::Args;
 use fret_core::machine::threads::{self, ThreadsError};
 use rayon::ThreadPool;
 
 use crate::failure::Failure;
+
+/// How many threads a call asks for.
+#[derive(Debug, Clone, Copy, Default, Args)]
+pub struct Threads {
+    /// Number of threads [default: all cores]
+    #[arg(long = "threads", value_name = "N", value_parser = number)]
+    pub number: Option<u16>,
+}
+
+impl Threads {
+    /// A pool of them.
+    pub fn pool(self) -> Result<ThreadPool, Failure> {
+        pool(asked(self.number))
+    }
+}
 
 /// How many threads a command works with.
 pub fn asked(number: Option<u16>) -> usize {

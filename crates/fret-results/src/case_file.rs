@@ -105,6 +105,11 @@ impl CaseFile {
         stem(&self.path, "case")
     }
 
+    /// What a case that it holds is called: its title, or the name of the file.
+    pub fn title(&self, case: &Case) -> String {
+        if case.title.is_empty() { self.stem().display().to_string() } else { case.title.clone() }
+    }
+
     /// The case, read; its history starts from `start`, or from bodies apart.
     ///
     /// # Errors

@@ -110,6 +110,18 @@ impl Results {
         self.record.unfinished(self.table.rows())
     }
 
+    /// That fields are kept of the ends of the stages alone, and how to keep more, in a sentence; none where more are, or were solved.
+    pub fn stage_ends_alone(&self) -> Option<String> {
+        let (kept, solved) = (self.fields.reached.len(), self.table.rows());
+        let alone = self.case().output.every.is_none() && kept < solved;
+        alone.then(|| {
+            format!(
+                "fields are kept at the ends of the stages alone, {kept} of {solved} increments: with [output] every = 1, or another \
+                 number, a run keeps more, as fatigue over a cycle needs"
+            )
+        })
+    }
+
     /// The head of a column of a field, with its unit where the case declares units.
     pub fn field_heading(&self, name: &str) -> String {
         Units::heading(self.units(), name, kind_of_field(name), Dimension::Plane)

@@ -1,10 +1,9 @@
 //! `fret check`: is this a case that can be computed? All mistakes at once, or a few facts.
 
-use std::path::Path;
-
 use fret_core::run::plausibility;
 use serde_json::json;
 
+use crate::arguments::PlannedArguments;
 use crate::commands::plan::{cells, cells_in_contact_radius, expected_contact, stages, warnings};
 use crate::failure::Failure;
 use crate::figures::counted;
@@ -12,9 +11,9 @@ use crate::terminal::Answer;
 use fret_results::{CaseFile, planned_from};
 
 /// Judges a case.
-pub fn check(path: &Path, from: Option<&str>) -> Result<Answer, Failure> {
-    let case_file = CaseFile::asked(path)?;
-    let plan = planned_from(&case_file, from)?;
+pub fn check(PlannedArguments { case, from }: &PlannedArguments) -> Result<Answer, Failure> {
+    let case_file = CaseFile::asked(case)?;
+    let plan = planned_from(&case_file, from.as_deref())?;
     let record = json!({
         "status": "good",
         "case": case_file.name(),

@@ -7,13 +7,12 @@ use crate::explore::{Question, Server, Solver};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::terminal;
-use crate::threads;
 use fret_results::CaseFile;
 
 /// Serves the page until somebody asks to stop.
 pub fn explore(arguments: &ExploreArguments, as_json: bool) -> Result<(), Failure> {
     let case_file = CaseFile::asked(&arguments.case)?;
-    let pool = threads::pool(threads::asked(arguments.threads))?;
+    let pool = arguments.threads.pool()?;
     let question = pool.install(|| Question::new(&case_file, arguments.cells))?;
     if question.sliders.is_empty() {
         let why = format!("{}: has no number that a slider could change", case_file.name());

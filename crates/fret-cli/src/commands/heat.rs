@@ -25,7 +25,6 @@ use crate::failure::Failure;
 use crate::figures::{duration, figure_in};
 use crate::interrupt;
 use crate::terminal::{self, Answer};
-use crate::threads;
 use fret_results::CaseFile;
 use fret_results::Results;
 use fret_results::{folder_below, write_whole};
@@ -45,10 +44,10 @@ pub fn heat(arguments: &HeatArguments) -> Result<Answer, Failure> {
                 .to_owned(),
         ));
     }
-    let pool = threads::pool(threads::asked(arguments.threads))?;
+    let pool = arguments.manner.threads.pool()?;
     let every = arguments.every.map(|every| every as usize);
     let (record, text) = pool.install(|| computed(folder, &run, every))?;
-    Ok(Answer::new(json!(record), text, arguments.quiet))
+    Ok(Answer::new(json!(record), text, arguments.manner.quiet))
 }
 
 /// Temperatures and resistances of a run that has just ended; nothing of what has none: a line contact, a run without kept fields.

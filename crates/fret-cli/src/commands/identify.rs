@@ -13,7 +13,6 @@ use crate::failure::Failure;
 use crate::identify::indentation::{IndentationAsked, indentation};
 use crate::identify::{Request, identify as identified, name_of};
 use crate::terminal;
-use crate::threads;
 use fret_results::CaseFile;
 use fret_results::{folder_for_answers, stem, write_whole};
 
@@ -43,7 +42,7 @@ pub fn identify(arguments: &IdentifyArguments, as_json: bool) -> Result<(), Fail
         Question::Loops(Request { log, key: one_key(&arguments.fit)? })
     };
     let case_file = CaseFile::read(&arguments.case)?;
-    let pool = threads::pool(threads::asked(arguments.threads))?;
+    let pool = arguments.manner.threads.pool()?;
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.log));
     let folder = folder_for_answers(&folder, &[IDENTIFIED], "an identification")?;
     let log = (name.as_str(), &bytes[..]);
@@ -71,7 +70,7 @@ pub fn identify(arguments: &IdentifyArguments, as_json: bool) -> Result<(), Fail
     if as_json {
         return terminal::answer_in_json(&written.json);
     }
-    if !arguments.quiet {
+    if !arguments.manner.quiet {
         terminal::answer(&format!("{}\nwritten to {}", written.text, folder.display()))?;
     }
     Ok(())

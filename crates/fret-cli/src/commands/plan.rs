@@ -1,7 +1,5 @@
 //! `fret plan`: what will be computed, what is left out and why, sizes and expected work; nothing heavy is done.
 
-use std::path::Path;
-
 use fret_core::history::Warning;
 use fret_core::machine::memory::{self, MemoryError, amount};
 use fret_core::model::{Body, Dimension};
@@ -11,6 +9,7 @@ use fret_core::study::{Expectation, expectation};
 use serde::Serialize;
 use serde_json::json;
 
+use crate::arguments::PlannedArguments;
 use crate::failure::Failure;
 use crate::figures::{LONGEST_TITLE, counted, duration, figure, shortened};
 use crate::summary::warning_line;
@@ -36,15 +35,16 @@ struct Record<'a> {
 }
 
 /// Plans a case and tells the plan.
-pub fn plan(path: &Path, from: Option<&str>) -> Result<Answer, Failure> {
-    let plan = planned_from(&CaseFile::asked(path)?, from)?;
+pub fn plan(PlannedArguments { case, from }: &PlannedArguments) -> Result<Answer, Failure> {
+    let case_file = CaseFile::asked(case)?;
+    let plan = planned_from(&case_file, from.as_deref())?;
     let lacking = memory::check(plan.memory_bytes).err();
     // A run that cannot be begun takes no time, and a part of it may be too much.
     let expected = match lacking {
         None => Some(threads::pool(threads::asked(None))?.install(|| expectation(&plan))),
         Some(_) => None,
     };
-    let text = table(&plan, expected.as_ref(), lacking.as_ref());
+    let text = table((&case_file.title(&plan.case), &plan), expected.as_ref(), lacking.as_ref());
     let record = Record {
         status: "planned",
         cells_in_contact_radius: cells_in_contact_radius(&plan),
@@ -58,14 +58,16 @@ pub fn plan(path: &Path, from: Option<&str>) -> Result<Answer, Failure> {
     Ok(Answer::new(json!(record), text, false))
 }
 
-fn table(plan: &Plan, expected: Option<&Expectation>, lacking: Option<&MemoryError>) -> String {
+fn table(
+    (title, plan): (&str, &Plan),
+    expected: Option<&Expectation>,
+    lacking: Option<&MemoryError>,
+) -> String {
     let coupling = match plan.coupling {
         Coupling::Frictionless => "pressure alone: there is no friction",
         Coupling::Uncoupled => "pressure first, then shear: they do not act on each other",
         Coupling::Coupled => "pressure and shear together: each acts on the other",
     };
-    let title = if plan.case.title.is_empty() { "case" } else { &plan.case.title };
-    let title = shortened(title, LONGEST_TITLE);
     let work = expected.map_or_else(
         || "not this run on this machine".to_owned(),
         |expected| {
@@ -79,7 +81,7 @@ fn table(plan: &Plan, expected: Option<&Expectation>, lacking: Option<&MemoryErr
         },
     );
     format!(
-        "{title}\n\n\
+        "{}\n\n\
          solved     {coupling}\n\
          grid       {}\n\
          iterated   {}\n\
@@ -89,6 +91,7 @@ fn table(plan: &Plan, expected: Option<&Expectation>, lacking: Option<&MemoryErr
          memory     about {}{}\n\
          kept       {} of fields on disk\n\
          work       {work}\n\n{}{}",
+        shortened(title, LONGEST_TITLE),
         cells(plan),
         if plan.case.periodic {
             "on the whole grid: periodic"

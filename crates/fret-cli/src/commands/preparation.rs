@@ -55,8 +55,8 @@ impl Wanted {
                 LeavingOut::None => LeaveOut::NONE,
             },
             estimate_error: arguments.estimate_error,
-            threads: arguments.threads,
-            quiet: arguments.quiet,
+            threads: arguments.manner.threads.number,
+            quiet: arguments.manner.quiet,
             verbose: arguments.verbose,
         })
     }

@@ -28,15 +28,15 @@ use fret_results::{ERROR_BARS, Origin, Record, ResultFolder, RunRecord, Standing
 pub fn run(arguments: &RunArguments, as_json: bool) -> Result<(), Told> {
     let begun = Wanted::by(arguments).and_then(Wanted::prepared).and_then(|preparation| {
         interrupt::listen();
-        let beginning = preparation.begun(arguments.quiet)?;
+        let beginning = preparation.begun(arguments.manner.quiet)?;
         Ok((preparation, beginning))
     });
     match begun {
         Ok((preparation, Beginning::Nothing(record))) => {
-            Ok(preparation.solved_before(&record, arguments.quiet, as_json)?)
+            Ok(preparation.solved_before(&record, arguments.manner.quiet, as_json)?)
         }
         Ok((preparation, Beginning::At(departure))) => {
-            preparation.solved(*departure, arguments.quiet, as_json)
+            preparation.solved(*departure, arguments.manner.quiet, as_json)
         }
         Err(failure) => Err(failure.into()),
     }
@@ -157,7 +157,8 @@ impl Preparation {
         let Departure { folder, tally, from, wall_s } = departure;
         let mut observer = RunObserver {
             folder,
-            progress: Progress::new(quiet, &self.title(), &tally).telling_all(self.verbose),
+            progress: Progress::new(quiet, &self.case_file.title(&self.plan.case), &tally)
+                .telling_all(self.verbose),
             tally,
             clock: Clock { started: Instant::now(), before_s: wall_s },
             grid: self.plan.grid,
@@ -182,14 +183,6 @@ impl Preparation {
             failure => (None, failure),
         };
         Ended { tally, warnings, wall_s, estimate, failure }
-    }
-
-    fn title(&self) -> String {
-        if self.plan.case.title.is_empty() {
-            self.case_file.stem().display().to_string()
-        } else {
-            self.plan.case.title.clone()
-        }
     }
 
     /// Stresses, temperatures and contact resistances, where the case asks for them.

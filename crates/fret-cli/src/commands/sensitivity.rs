@@ -10,12 +10,12 @@ use fret_core::sensitivity::{
 use fret_core::uncertainty::{FirstOrder, first_order};
 use serde_json::{Map, Value, json};
 
-use crate::arguments::{Scatter, SensitivityArguments};
+use crate::arguments::SensitivityArguments;
 use crate::failure::Failure;
 use crate::figures::figure;
 use crate::interrupt::{self, Listener};
+use crate::scatter::Scatter;
 use crate::terminal;
-use crate::threads;
 use fret_results::CaseFile;
 
 /// Letters of a bar for a logarithmic derivative of one.
@@ -27,7 +27,7 @@ const LONGEST_BAR: usize = 30;
 pub fn sensitivity(arguments: &SensitivityArguments, as_json: bool) -> Result<(), Failure> {
     let plan = CaseFile::asked(&arguments.case)?.planned()?;
     interrupt::listen();
-    let pool = threads::pool(threads::asked(arguments.threads))?;
+    let pool = arguments.threads.pool()?;
     let of = if arguments.of.is_empty() { usual_results(&plan) } else { arguments.of.clone() };
     let scattered = arguments.scatter.iter().map(|scatter| scatter.path.clone());
     let by = if arguments.by.is_empty() { scattered.collect() } else { arguments.by.clone() };

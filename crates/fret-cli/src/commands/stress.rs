@@ -21,7 +21,6 @@ use crate::export::volume::{Field, Volume};
 use crate::failure::{Failure, Unwritten};
 use crate::interrupt;
 use crate::terminal::{self, Answer};
-use crate::threads;
 use fret_results::Results;
 use fret_results::folder_below;
 
@@ -52,9 +51,9 @@ pub fn stress(arguments: &StressArguments) -> Result<Answer, Failure> {
         return Err(Failure::Call(format!("{}: {why}", arguments.folder.display()), way_out));
     }
     let request = requested(arguments, &run);
-    let pool = threads::pool(threads::asked(arguments.threads))?;
+    let pool = arguments.manner.threads.pool()?;
     let (record, text) = pool.install(|| computed(&arguments.folder, &run, &request))?;
-    Ok(Answer::new(json!(record), text, arguments.quiet))
+    Ok(Answer::new(json!(record), text, arguments.manner.quiet))
 }
 
 /// What the call asks for, or else the case.

@@ -12,6 +12,9 @@ pub struct StressRecord {
     pub status: String,
     /// Why the run is not finished, if it is not.
     pub unfinished: Option<String>,
+    /// That only the ends of the stages are kept, and how to keep more, where that is so.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stage_ends_alone: Option<String>,
     /// The body.
     pub body: String,
     /// Units that the case declares.

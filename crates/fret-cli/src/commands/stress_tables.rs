@@ -124,6 +124,7 @@ impl<'a> StressTables<'a> {
         let record = StressRecord {
             status: "computed".to_owned(),
             unfinished: self.run.unfinished(),
+            stage_ends_alone: self.run.stage_ends_alone(),
             body: self.request.body.name().to_owned(),
             units: self.run.units().cloned(),
             increments: self.surfaces.iter().map(|surface| surface.increment).collect(),
@@ -216,7 +217,8 @@ impl<'a> StressTables<'a> {
     }
 
     fn table(&self, record: &StressRecord, place: &Path, fatigue: &str) -> String {
-        let unfinished = record.unfinished.as_ref().map_or(String::new(), |why| format!("{why}\n"));
+        let said = [&record.unfinished, &record.stage_ends_alone].into_iter().flatten();
+        let unfinished: String = said.map(|why| format!("{why}\n")).collect();
         let mut text = unfinished
             + &format!(
                 "stress in the {} body: {} at {}, counted from 0\n\n",

@@ -22,7 +22,6 @@ use crate::study::levels::{LEVELS, Levels};
 use crate::study::record::StudyRecord;
 use crate::study::{picture, reference, table, words};
 use crate::terminal::{self, Answer};
-use crate::threads;
 use fret_results::CaseFile;
 use fret_results::{folder_for_answers, write_whole};
 
@@ -38,7 +37,7 @@ pub fn study(arguments: &StudyArguments) -> Result<Answer, Failure> {
     let case_file = CaseFile::asked(&arguments.case)?;
     let plan = case_file.planned()?;
     let question = Question::new(arguments, &plan)?;
-    let pool = threads::pool(threads::asked(arguments.threads))?;
+    let pool = arguments.threads.pool()?;
     let folder = arguments.out.clone().unwrap_or_else(|| {
         let mut name = case_file.stem().into_os_string();
         name.push("-study");
@@ -52,11 +51,7 @@ pub fn study(arguments: &StudyArguments) -> Result<Answer, Failure> {
             terminal::say(text);
         }
     };
-    let title = if plan.case.title.is_empty() {
-        case_file.stem().display().to_string()
-    } else {
-        plan.case.title.clone()
-    };
+    let title = case_file.title(&plan.case);
     let studied = pool.install(|| studied((&title, &plan), question, Some(&kept), &say, &mut Listener))?;
     let text = format!("{:#}", studied.record);
     let Studied { study, lines, .. } = &studied;

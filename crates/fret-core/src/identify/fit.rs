@@ -23,10 +23,11 @@ use super::computed::Loop;
 use super::cycles::MeasuredCycle;
 use super::drift::Bend;
 use super::error::{IdentifyError, refused};
+use super::feet::{Feet, Points};
 use super::intervals::{Left, Sureness, sureness};
 use super::model::Model;
 use super::start::first_guess;
-use super::turns::{calm_range, falls, noise};
+use super::turns::{calm_range, noise};
 
 /// Step of the differences by which derivatives by the constants are found, relative.
 const STEP: f64 = 5e-3;
@@ -34,10 +35,6 @@ const STEP: f64 = 5e-3;
 const UNSOLVED: f64 = 1e3;
 /// Rounds in which the feet of the points on the loop follow the solution.
 const ROUNDS: usize = 3;
-/// Points nearer to a turn than so many rows lie next to it: so well the displacement tells it.
-const AT_TURN: f64 = 1.5;
-/// Steps to the foot of a point.
-const STEPS_TO_FOOT: usize = 3;
 /// Noise below this part of the amplitude does not count: what a loop is off is more.
 const QUIET: f64 = 1e-3;
 /// The noise of one signal over that of the other, relative to the amplitudes, at the most.
@@ -112,8 +109,7 @@ fn fit_from<'a>(
         bend: bend.map_or(0.0, |bend| bend.value / units[0]),
         bend_is_fitted: false,
         noises: noises(cycle, units),
-        falling: Vec::new(),
-        feet: Vec::new(),
+        feet: Feet::default(),
         now: None,
         loops: RefCell::default(),
     };
@@ -146,9 +142,7 @@ pub struct Fit<'a> {
     pub bend_is_fitted: bool,
     /// Noise of displacement and force over their amplitudes, in their own unit: their squares are two.
     noises: [f64; 2],
-    /// Whether a point lies on the way down.
-    falling: Vec<bool>,
-    feet: Vec<Foot>,
+    feet: Feet,
     /// The loop of the parameters.
     pub now: Option<Rc<Loop>>,
     /// The loops that were solved, by their constants; `None` where there is no solution. The rounds, and what is asked about the solution after
@@ -231,14 +225,19 @@ impl Fit<'_> {
         found
     }
 
-    /// Displacements without offset and drift.
-    fn places(&self) -> impl Iterator<Item = f64> {
+    /// The points without offsets and drift.
+    fn points(&self) -> Points {
         let count = self.cycle.force.len();
         let [offset, drift, bend] = [self.parameters[3], self.parameters[4], self.bend()];
-        self.cycle.displacement.iter().enumerate().map(move |(row, displacement)| {
+        let place = |(row, displacement): (usize, &f64)| {
             let moved = offset + drift * time(row, count) + bend * bent(time(row, count));
             displacement - self.units[0] * moved
-        })
+        };
+        let level = self.units[1] * self.parameters[5];
+        Points {
+            places: self.cycle.displacement.iter().enumerate().map(place).collect(),
+            forces: self.cycle.force.iter().map(|force| force - level).collect(),
+        }
     }
 
     /// Noise of displacement and force, in one unit.
@@ -248,62 +247,19 @@ impl Fit<'_> {
 
     /// The feet of the points on the loop; of the first round, at the measured displacements.
     fn find_feet(&mut self, round: usize) {
-        let Some(now) = &self.now else { return };
-        let [length, force] = self.noises();
-        let level = self.units[1] * self.parameters[5];
-        let places: Vec<f64> = self.places().collect();
-        let turns = self.cycle.turns;
-        let count = places.len();
-        let near_turn = |row: usize| {
-            let apart = |turn: f64| {
-                let rows = (row as f64 - turn).rem_euclid(count as f64);
-                rows.min(count as f64 - rows)
-            };
-            round > 0 && apart(turns[0]).min(apart(turns[1])) < AT_TURN
-        };
-        // Next to a turn it is open on which side of it a point lies: on that whose branch is nearer.
-        let off = |row: usize, falling: bool| {
-            let [expected, slope] = now.at(falling, places[row]);
-            ((self.cycle.force[row] - level - expected) / force.hypot(slope * length)).abs()
-        };
-        let falling: Vec<bool> = (0..count)
-            .map(
-                |row| {
-                    if near_turn(row) { off(row, true) < off(row, false) } else { falls(row as f64, turns) }
-                },
-            )
-            .collect();
-        let foot = |(row, &place): (usize, &f64)| {
-            let falling = falling[row];
-            let mut at = place;
-            for _ in 0..if round == 0 { 0 } else { STEPS_TO_FOOT } {
-                let [expected, slope] = now.at(falling, at);
-                let off = self.cycle.force[row] - level - expected - slope * (place - at);
-                at = place + slope * off / ((force / length).powi(2) + slope * slope);
-            }
-            let slope = now.at(falling, at)[1];
-            Foot { at, slope, weight: 1.0 / force.hypot(slope * length) }
-        };
-        self.feet = places.iter().enumerate().map(foot).collect();
-        self.falling = falling;
+        if let Some(now) = &self.now {
+            self.feet = Feet::on(now, &self.points(), self.cycle.turns, self.noises(), round > 0);
+        }
     }
 
     fn distances(&self, of: &Loop) -> Vec<f64> {
-        let level = self.units[1] * self.parameters[5];
-        self.places()
-            .enumerate()
-            .map(|(row, place)| {
-                let foot = &self.feet[row];
-                let expected = of.at(self.falling[row], foot.at)[0] + foot.slope * (place - foot.at);
-                foot.weight * (self.cycle.force[row] - level - expected)
-            })
-            .collect()
+        self.feet.distances(of, &self.points())
     }
 
     /// Part of every residual's variance that is of the force.
     fn of_force(&self) -> Vec<f64> {
         let force = self.noises()[1];
-        self.feet.iter().map(|foot| (force * foot.weight).powi(2)).collect()
+        self.feet.slopes().map(|[_, weight]| (force * weight).powi(2)).collect()
     }
 
     /// How sure the parameters are, with a bend of the drift of so much, relative to the amplitude, beside them.
@@ -341,16 +297,6 @@ impl Fit<'_> {
         // Half-widths of 95 % are two standard deviations.
         step[constants].abs() > BENDS * 0.5 * sure.halves[constants]
     }
-}
-
-/// The foot of a point on the loop.
-struct Foot {
-    /// Displacement [length].
-    at: f64,
-    /// Slope of the loop there [force/length].
-    slope: f64,
-    /// One over the noise of a distance in direction of the force.
-    weight: f64,
 }
 
 /// Noise of displacement and force over their amplitudes, as large as these together.
@@ -414,7 +360,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Fit<'_> {
             }
         }
         let [length, force] = self.units;
-        for (row, &Foot { slope, weight, .. }) in self.feet.iter().enumerate() {
+        for (row, [slope, weight]) in self.feet.slopes().enumerate() {
             jacobian[(row, 3)] = slope * length * weight;
             jacobian[(row, 4)] = slope * length * weight * time(row, count);
             jacobian[(row, 5)] = -force * weight;

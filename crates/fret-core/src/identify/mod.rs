@@ -3,7 +3,7 @@
 //!
 //! From the ground: `request` and `error`; `log` (which columns there are); `turns` of a signal,
 //! `cycles` (which are whole), `direction`, `drift`; `computed` (a loop between its points), `model` (the loop that the solver computes),
-//! `flanks`, `quantities` (what is read from a cycle); `start`, `intervals`, `fit` (least squares), `found`; the answer in
+//! `flanks`, `quantities` (what is read from a cycle); `start`, `intervals`, `feet` (of points on a loop), `fit` (least squares), `found`; the answer in
 //! `identification`. Beside it, for numbers of a case from load over depth, `indentation`: `request`; `load_curve`, `indenter` (the curve that the
 //! solver computes), `log` (which rows are fitted), `start`, `fit` with `feet`, `scaling` and `sureness`, `notes`; the answer in `indentation` itself.
 
@@ -12,6 +12,7 @@ mod cycles;
 mod direction;
 mod drift;
 mod error;
+mod feet;
 mod fit;
 mod flanks;
 mod found;

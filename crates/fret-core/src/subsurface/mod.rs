@@ -4,6 +4,7 @@
 //! Axes: x and y of the contact, z INTO the body in question, from its own surface. Tension is positive. The shear given is
 //! what acts on the body: on the lower body the contact's shear, on the upper one minus it.
 
+mod at_depth;
 pub mod coating_fracture;
 pub mod crack;
 pub mod crack_path;
