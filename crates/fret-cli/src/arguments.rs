@@ -180,10 +180,8 @@ pub enum LeavingOut {
 }
 
 /// Which resolutions to study, and what to compare them with.
-#[derive(Debug, Args)]
-pub struct StudyArguments {
-    /// The case file (TOML); - reads it from standard input
-    pub case: PathBuf,
+#[derive(Debug, Clone, Default, Args)]
+pub struct StudyRequest {
     /// Numbers of cells along x; the grid keeps its size and shape [default, without any list: the case's value, a half, a quarter]
     #[arg(long, value_name = "N,...", value_delimiter = ',')]
     pub cells: Vec<usize>,
@@ -197,6 +195,16 @@ pub struct StudyArguments {
     /// case has one, otherwise Richardson extrapolation]
     #[arg(long, value_name = "analytic|finest|FILE")]
     pub against: Option<String>,
+}
+
+/// Which case to study, and how.
+#[derive(Debug, Args)]
+pub struct StudyArguments {
+    /// The case file (TOML); - reads it from standard input
+    pub case: PathBuf,
+    /// What is asked.
+    #[command(flatten)]
+    pub request: StudyRequest,
     /// Folder for the table and the figure [default: results/ and the name of the case with -study]
     #[arg(long, short, value_name = "DIR")]
     pub out: Option<PathBuf>,

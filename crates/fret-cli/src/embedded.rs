@@ -1,8 +1,7 @@
 //! What a program that carries the command calls besides it, as the Python package does: the same runs, results and studies, without a
 //! terminal.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use fret_core::history::History;
@@ -11,7 +10,7 @@ use fret_core::plan::{LeaveOut, Plan};
 use fret_core::study::{StageQuantities, companion};
 use serde_json::Value;
 
-use crate::arguments::StudyArguments;
+pub use crate::arguments::StudyRequest;
 use crate::commands::preparation::Wanted;
 use crate::commands::run;
 use crate::commands::study::{Question, studied};
@@ -137,41 +136,17 @@ pub fn save(solved: Solved<'_>, case_file: &CaseFile, folder: &Path, wish: Wish)
     Ok(())
 }
 
-/// Resolutions of a refinement study; empty lists as in `fret study`.
-#[derive(Debug, Clone, Default)]
-pub struct StudyRequest {
-    /// Numbers of cells along x.
-    pub cells: Vec<usize>,
-    /// Numbers of increments per stage or cycle.
-    pub increments: Vec<usize>,
-    /// Tolerances of the solver.
-    pub tolerances: Vec<f64>,
-    /// `analytic`, `finest` or a file of numbers.
-    pub against: Option<String>,
-}
-
 /// Studies a case as `fret study` does; the answer is that of `study.json`. With `progress` every level is told on standard error.
 ///
 /// # Errors
 /// When a number of the request cannot be had, or the finest level cannot be solved.
 pub fn study(
     plan: &Plan,
-    request: StudyRequest,
+    request: &StudyRequest,
     progress: bool,
     guest: &mut Guest<'_>,
 ) -> Result<Value, Failure> {
-    let StudyRequest { cells, increments, tolerances, against } = request;
-    let arguments = StudyArguments {
-        case: PathBuf::new(),
-        cells,
-        increments,
-        tolerances,
-        against,
-        out: None,
-        threads: threads::Threads::default(),
-        quiet: true,
-    };
-    let question = Question::new(&arguments, plan)?;
+    let question = Question::new(request, plan)?;
     let say = |text: &str| {
         if progress {
             terminal::say(text);
@@ -189,8 +164,8 @@ pub fn identify(
     case_file: &CaseFile,
     request: &IdentifyRequest,
 ) -> Result<(Value, String), Failure> {
-    let answer = in_whole(|| crate::identify::identify(log, case_file, request))?;
-    Ok((answer.json(), answer.page()))
+    let answer = defect::caught(|| crate::identify::identify(log, case_file, request))?;
+    Ok((answer.record, answer.page))
 }
 
 /// Numbers of a case from a measured indentation, as `identified.json` has them, and the page with its pictures.
@@ -202,12 +177,6 @@ pub fn identify_indentation(
     case_file: &CaseFile,
     asked: &IndentationAsked,
 ) -> Result<(Value, String), Failure> {
-    let answer = in_whole(|| crate::identify::indentation::indentation(log, case_file, asked))?;
-    Ok((answer.json(), answer.page()))
-}
-
-/// What is asked: a mistake in the program is an error of the call, not the end of the caller.
-fn in_whole<T>(asked: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
-    catch_unwind(AssertUnwindSafe(asked))
-        .unwrap_or_else(|panic| Err(Failure::Defect(defect::words_of(panic.as_ref()))))
+    let answer = defect::caught(|| crate::identify::indentation::indentation(log, case_file, asked))?;
+    Ok((answer.record, answer.page))
 }

@@ -2,15 +2,15 @@
 
 use std::f64::consts::PI;
 use std::fmt::Write;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use fret_core::model::Dimension;
 use fret_core::plan::{Coupling, Plan};
-use fret_core::run::{Observer, RunError};
+use fret_core::run::Observer;
 use fret_core::study::{Bar, Bars, Quantity, StageQuantities, error_bars, resolved, solved_level};
 use serde_json::{Value, json};
 
 use crate::defect;
+use crate::failure::Failure;
 use crate::figures::{counted, duration, figure, shortened, side_by_side};
 use crate::study::words::name;
 
@@ -55,11 +55,11 @@ impl Estimate {
         observer: &mut dyn Observer,
     ) -> Result<Self, NoBars> {
         let because = |why: String| NoBars::Because(format!("the auxiliary coarse solution: {why}"));
-        let level = match catch_unwind(AssertUnwindSafe(|| solved_level(companion, observer))) {
-            Ok(Ok(level)) => level,
-            Ok(Err(RunError::Interrupted { .. })) => return Err(NoBars::Interrupted),
-            Ok(Err(error)) => return Err(because(error.to_string())),
-            Err(panic) => return Err(because(defect::words_of(panic.as_ref()))),
+        let level = match defect::caught(|| Ok(solved_level(companion, observer)?)) {
+            Ok(level) => level,
+            Err(Failure::Interrupted(_)) => return Err(NoBars::Interrupted),
+            Err(Failure::Defect(words)) => return Err(because(words)),
+            Err(failure) => return Err(because(failure.message())),
         };
         let unresolved: Vec<(usize, String)> = stage_quantities
             .iter()

@@ -88,6 +88,15 @@ impl<F: Into<Failure>> From<F> for Told {
     }
 }
 
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Interrupted { .. } => Self::Interrupted(String::new()),
+            error => Self::Unsolved(error),
+        }
+    }
+}
+
 impl Failure {
     /// The exit code.
     pub fn code(&self) -> u8 {
@@ -108,18 +117,10 @@ impl Failure {
 
     /// One word for records.
     pub fn status(&self) -> &'static str {
-        match self {
-            Self::Case(_)
-            | Self::Call(..)
-            | Self::Points { failed: 0, .. }
-            | Self::Memory(MemoryError::TooLittle { .. }) => "refused",
-            Self::Unsolved(error) if asks_for_another_case(error) => "refused",
-            Self::Memory(_)
-            | Self::Unsolved(_)
-            | Self::Unwritten(_)
-            | Self::Points { .. }
-            | Self::Defect(_) => "failed",
-            Self::Interrupted(_) => "interrupted",
+        match self.code() {
+            REFUSED => "refused",
+            FAILED => "failed",
+            _ => "interrupted",
         }
     }
 

@@ -14,7 +14,19 @@ pub fn figure(value: f64) -> String {
     }
 }
 
-/// The same with its unit, where the case declares units; `kind` as in `force x length`.
+/// The word for a number beyond all bounds.
+pub const UNLIMITED: &str = "unlimited";
+
+/// The same of a number that may be beyond all bounds, or none.
+pub fn bounded(value: f64) -> String {
+    match value {
+        f64::INFINITY => UNLIMITED.to_owned(),
+        value if value.is_nan() => "-".to_owned(),
+        value => figure(value),
+    }
+}
+
+/// A number with its unit, where the case declares units; `kind` as in `force x length`.
 pub fn figure_in(units: Option<&Units>, value: f64, kind: &str) -> String {
     figure(value) + &Units::after(units, kind, Dimension::Plane)
 }
@@ -36,6 +48,17 @@ pub fn figure_beside(value: f64, scale: f64) -> String {
 pub fn counted(count: usize, noun: &str) -> String {
     let end = if count == 1 { "" } else { "s" };
     format!("{count} {noun}{end}")
+}
+
+/// A sentence that begins with a capital letter.
+pub fn capitalised(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// A block of lines, moved to the right.
+pub fn indented(text: &str) -> String {
+    text.lines().map(|line| format!("  {line}\n")).collect()
 }
 
 /// A span of time.

@@ -4,7 +4,6 @@
 
 mod arguments;
 mod commands;
-mod csv;
 mod defect;
 mod drawing;
 pub mod embedded;
@@ -22,12 +21,12 @@ mod scatter;
 mod study;
 mod summary;
 mod sweep;
+mod table;
 mod templates;
 mod terminal;
 mod threads;
 
 use std::ffi::OsString;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use clap::Parser;
 use clap::error::ErrorKind;
@@ -44,9 +43,7 @@ pub fn command_line(words: impl IntoIterator<Item = OsString>) -> u8 {
     };
     defect::listen();
     interrupt::outlive_full_files();
-    let outcome = catch_unwind(AssertUnwindSafe(|| dispatch(&arguments)))
-        .unwrap_or_else(|panic| Err(Failure::Defect(defect::words_of(panic.as_ref())).into()));
-    match outcome {
+    match defect::caught(|| dispatch(&arguments)) {
         Ok(()) => 0,
         Err(Told { failure, in_json }) => {
             if arguments.json && !in_json {
@@ -65,8 +62,6 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         // these tell more than an answer, or another kind of one
         Verb::Sweep(arguments) => return commands::sweep::sweep(arguments, as_json),
         Verb::Run(arguments) => return commands::run::run(arguments, as_json),
-        Verb::Identify(arguments) => return Ok(commands::identify::identify(arguments, as_json)?),
-        Verb::Sensitivity(arguments) => return Ok(commands::sensitivity::sensitivity(arguments, as_json)?),
         Verb::Explore(arguments) => return Ok(commands::explore::explore(arguments, as_json)?),
         Verb::Schema => return Ok(commands::schema::schema()?),
         Verb::Completions { shell } => return Ok(commands::shells::completions(*shell)?),
@@ -87,6 +82,8 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         Verb::Stress(arguments) => commands::stress::stress(arguments),
         Verb::CompareScar(arguments) => commands::compare_scar::compare_scar(arguments),
         Verb::Heat(arguments) => commands::heat::heat(arguments),
+        Verb::Identify(arguments) => commands::identify::identify(arguments),
+        Verb::Sensitivity(arguments) => commands::sensitivity::sensitivity(arguments),
     }?;
     Ok(answer.tell(as_json)?)
 }

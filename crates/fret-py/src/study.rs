@@ -27,7 +27,7 @@ pub fn study(
     let (answer, interruption): (_, Option<PyErr>) = py.detach(|| {
         listen(&plan, None, |reporter| {
             let mut guest = reporter.silently();
-            pool.install(|| embedded::study(&plan, request, progress, &mut guest))
+            pool.install(|| embedded::study(&plan, &request, progress, &mut guest))
         })
     });
     match interruption {

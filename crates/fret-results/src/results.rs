@@ -116,8 +116,8 @@ impl Results {
         let alone = self.case().output.every.is_none() && kept < solved;
         alone.then(|| {
             format!(
-                "fields are kept at the ends of the stages alone, {kept} of {solved} increments: with [output] every = 1, or another \
-                 number, a run keeps more, as fatigue over a cycle needs"
+                "fields are kept at the ends of the stages alone ({kept} of {solved} increments): [output] every = 1 keeps all, and fatigue \
+                 over a cycle needs more than its end"
             )
         })
     }

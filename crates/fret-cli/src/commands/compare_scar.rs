@@ -13,12 +13,12 @@ use serde_json::{Value, json};
 use super::columns_asked::pairs;
 use super::identify::content;
 use crate::arguments::CompareScarArguments;
-use crate::csv::{Column, csv};
 use crate::drawing::chart::{Chart, Curve};
 use crate::drawing::scale::Label;
 use crate::failure::Failure;
-use crate::figures::{figure, figure_in};
+use crate::figures::{figure, figure_in, indented};
 use crate::identify::name_of;
+use crate::table::{Cell, Columns};
 use crate::terminal::Answer;
 use fret_results::Results;
 use fret_results::{folder_below, write_whole};
@@ -150,12 +150,11 @@ impl BesideMeasured<'_> {
         let Comparison { x, computed, measured, .. } = self.found;
         let rows =
             x.iter().zip(computed).zip(measured).map(|((x, computed), measured)| [*x, *computed, *measured]);
-        let columns: [Column<'_, [f64; 3]>; 3] = [
-            (self.along, "length", &|row| row[0].into()),
-            ("computed_depth", "length", &|row| row[1].into()),
-            ("measured_depth", "length", &|row| row[2].into()),
-        ];
-        csv(self.run.units(), &columns, rows)
+        let columns = Columns::<[f64; 3]>::new()
+            .column(self.along, "length", |row| row[0])
+            .column("computed_depth", "length", |row| row[1])
+            .column("measured_depth", "length", |row| row[2]);
+        columns.csv(self.run.units(), rows)
     }
 
     fn picture(&self) -> String {
@@ -182,14 +181,14 @@ impl BesideMeasured<'_> {
             "wear scar of {} after increment {}, along {}, beside {}\n",
             self.worn.whose, self.worn.increment, self.along, found.name
         );
-        let _ = writeln!(text, "  {:<8} {:<18} {:<18} difference", "", "computed", "measured");
-        for pair in &found.numbers {
-            let Pair { name, kind, computed, measured } = pair;
-            let [computed, measured] = [computed, measured].map(|value| figure_in(units, *value, kind));
-            let difference =
-                pair.difference().map_or_else(|| "-".to_owned(), |part| format!("{:+.1} %", 100.0 * part));
-            let _ = writeln!(text, "  {name:<8} {computed:<18} {measured:<18} {difference}");
-        }
+        let columns = Columns::<Pair>::new()
+            .column("", "", |pair| pair.name)
+            .column("computed", "", |pair| Cell::Of(pair.computed, pair.kind))
+            .column("measured", "", |pair| Cell::Of(pair.measured, pair.kind))
+            .column("difference", "", |pair| {
+                pair.difference().map_or_else(|| "-".to_owned(), |part| format!("{:+.1} %", 100.0 * part))
+            });
+        text += &indented(&columns.text(&[8, 18, 18], units, &found.numbers));
         let length = |value: f64| figure_in(units, value, "length");
         let kind_of_volume = self.run.grid().dimension().kind("length^3");
         let _ = writeln!(text, "  volume   {}", figure_in(units, self.volume(), kind_of_volume));

@@ -8,10 +8,10 @@ use fret_core::subsurface::severity::constants_of;
 use fret_core::subsurface::{LoadedSurface, MostSevere};
 
 use super::stress_record::CrackRecord;
-use crate::csv::{Column, csv};
 use crate::failure::Failure;
 use crate::figures::{figure, figure_in};
 use crate::interrupt;
+use crate::table::Columns;
 use fret_results::Results;
 
 /// Kind of a stress intensity.
@@ -102,15 +102,14 @@ impl Crack<'_> {
             figure_in(units, y, "length"),
             figure(degrees)
         );
-        let columns: [Column<'_, &CrackLength>; 6] = [
-            ("length", "length", &|at| at.length.into()),
-            ("k1_max", INTENSITY, &|at| at.largest.into()),
-            ("k1_range", INTENSITY, &|at| at.range.into()),
-            ("k2_range", INTENSITY, &|at| at.sliding_range.into()),
-            ("threshold", INTENSITY, &|at| at.threshold.into()),
-            ("cycles", "", &|at| at.cycles.into()),
-        ];
-        let csv = csv(units, &columns, &course.lengths);
+        let columns = Columns::<CrackLength>::new()
+            .column("length", "length", |at| at.length)
+            .column("k1_max", INTENSITY, |at| at.largest)
+            .column("k1_range", INTENSITY, |at| at.range)
+            .column("k2_range", INTENSITY, |at| at.sliding_range)
+            .column("threshold", INTENSITY, |at| at.threshold)
+            .column("cycles", "", |at| at.cycles);
+        let csv = columns.csv(units, &course.lengths);
         CrackAnswer { record, table, csv: Some(csv) }
     }
 }

@@ -12,12 +12,12 @@ use fret_core::subsurface::{DepthPoint, Judged, LoadedSurface, MostSevere, Sever
 
 use super::crack::{Crack, CrackAnswer};
 use super::stress_record::{
-    AtDistance, Bounded, CriticalDistance, FatigueRecord, FilmRecord, ParameterRecord, UNLIMITED,
+    AtDistance, Bounded, CriticalDistance, FatigueRecord, FilmRecord, ParameterRecord,
 };
 use crate::commands::stress_kinds::kind_of_stress;
-use crate::csv::{Cell, Column, csv};
 use crate::failure::Failure;
-use crate::figures::{figure, figure_in};
+use crate::figures::{bounded, figure_in};
+use crate::table::Columns;
 use fret_results::Results;
 
 /// Collects what fatigue is judged by, one depth at a time.
@@ -126,8 +126,8 @@ impl<'a> Fatigue<'a> {
                     AtDistance { value, x, y, cycles: cycles(value).map(Bounded) }
                 };
                 let in_words = |value: f64| {
-                    let cycles =
-                        cycles(value).map_or(String::new(), |cycles| format!(" ({} cycles)", worded(cycles)));
+                    let cycles = cycles(value)
+                        .map_or(String::new(), |cycles| format!(" ({} cycles)", bounded(cycles)));
                     self.told(value, kind_of_stress(parameter.name())) + &cycles
                 };
                 let (point, line) = (told(at.point), told(at.line));
@@ -212,15 +212,15 @@ impl<'a> Fatigue<'a> {
             self.told(found.point.depth, "length")
         );
         if let Some(cycles) = found.cycles {
-            let _ = write!(table, " cycles to initiation {}", worded(cycles));
+            let _ = write!(table, " cycles to initiation {}", bounded(cycles));
         }
         if let Some(factor) = found.factor_of_safety {
-            let _ = write!(table, " factor of safety {}", worded(factor));
+            let _ = write!(table, " factor of safety {}", bounded(factor));
         }
         if found.off != [0.0; 2] {
             let cells = self.told(found.of_cells, kind_of_stress(found.parameter.name()));
             let cycles =
-                found.cycles_of_cells.map_or(String::new(), |cycles| format!(", {} cycles", worded(cycles)));
+                found.cycles_of_cells.map_or(String::new(), |cycles| format!(", {} cycles", bounded(cycles)));
             let _ = write!(table, " (extrapolated to the rim; largest cell {cells}{cycles})");
         }
         table.truncate(table.trim_end().len());
@@ -233,25 +233,24 @@ impl<'a> Fatigue<'a> {
             let mut known = judged.at_distance.iter().filter(|_| found.point.layer == 0);
             known.find(|(of, _)| *of == found.parameter).map(|(_, at)| at)
         };
-        let normal = |found: &MostSevere, axis: usize| Cell::from(found.normal.map(|normal| normal[axis]));
-        let columns: [Column<'_, &MostSevere>; 15] = [
-            ("parameter", "", &|found| found.parameter.name().into()),
-            ("layer", "", &|found| found.point.layer.into()),
-            ("largest", "", &|found| found.value.into()),
-            ("x", "length", &|found| self.place(found.cell, found.off)[0].into()),
-            ("y", "length", &|found| self.place(found.cell, found.off)[1].into()),
-            ("depth", "length", &|found| found.point.depth.into()),
-            ("cycles", "", &|found| found.cycles.into()),
-            ("factor_of_safety", "", &|found| found.factor_of_safety.into()),
-            ("largest_cell", "", &|found| found.of_cells.into()),
-            ("largest_cell_cycles", "", &|found| found.cycles_of_cells.into()),
-            ("normal_x", "", &|found| normal(found, 0)),
-            ("normal_y", "", &|found| normal(found, 1)),
-            ("normal_z", "", &|found| normal(found, 2)),
-            ("point_method", "", &|found| at(found).map(|at| at.point.0).into()),
-            ("line_method", "", &|found| at(found).map(|at| at.line.0).into()),
-        ];
-        csv(self.run.units(), &columns, &judged.found)
+        let normal = |found: &MostSevere, axis: usize| found.normal.map(|normal| normal[axis]);
+        let columns = Columns::<MostSevere>::new()
+            .column("parameter", "", |found| found.parameter.name())
+            .column("layer", "", |found| found.point.layer)
+            .column("largest", "", |found| found.value)
+            .column("x", "length", |found| self.place(found.cell, found.off)[0])
+            .column("y", "length", |found| self.place(found.cell, found.off)[1])
+            .column("depth", "length", |found| found.point.depth)
+            .column("cycles", "", |found| found.cycles)
+            .column("factor_of_safety", "", |found| found.factor_of_safety)
+            .column("largest_cell", "", |found| found.of_cells)
+            .column("largest_cell_cycles", "", |found| found.cycles_of_cells)
+            .column("normal_x", "", |found| normal(found, 0))
+            .column("normal_y", "", |found| normal(found, 1))
+            .column("normal_z", "", |found| normal(found, 2))
+            .column("point_method", "", |found| at(found).map(|at| at.point.0))
+            .column("line_method", "", |found| at(found).map(|at| at.line.0));
+        columns.csv(self.run.units(), &judged.found)
     }
 
     /// Channelling and delamination of the outermost coating.
@@ -297,9 +296,4 @@ impl<'a> Fatigue<'a> {
         }
         finished.coating = Some(records);
     }
-}
-
-/// A number for a person, or the word for one beyond all bounds.
-fn worded(value: f64) -> String {
-    if value.is_finite() { figure(value) } else { UNLIMITED.to_owned() }
 }

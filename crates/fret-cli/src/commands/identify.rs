@@ -5,14 +5,13 @@ use std::path::{Path, PathBuf};
 
 use fret_core::identify;
 use fret_core::measured::Asked;
-use serde_json::Value;
 
 use super::columns_asked::pairs;
 use crate::arguments::IdentifyArguments;
 use crate::failure::Failure;
 use crate::identify::indentation::{IndentationAsked, indentation};
-use crate::identify::{Request, identify as identified, name_of};
-use crate::terminal;
+use crate::identify::{Identified, Request, identify as identified, name_of};
+use crate::terminal::Answer;
 use fret_results::CaseFile;
 use fret_results::{folder_for_answers, stem, write_whole};
 
@@ -25,7 +24,7 @@ const EXAMPLE_OF_DEPTH: &str = "depth=...,force=...";
 const MOST_BYTES: u64 = 1 << 30;
 
 /// Identifies a log by a case; writes what was found beside it.
-pub fn identify(arguments: &IdentifyArguments, as_json: bool) -> Result<(), Failure> {
+pub fn identify(arguments: &IdentifyArguments) -> Result<Answer, Failure> {
     let name = name_of(&arguments.log);
     let bytes = content(&arguments.log)?;
     let asked = |example: &str| -> Result<Asked, Failure> {
@@ -46,48 +45,21 @@ pub fn identify(arguments: &IdentifyArguments, as_json: bool) -> Result<(), Fail
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.log));
     let folder = folder_for_answers(&folder, &[IDENTIFIED], "an identification")?;
     let log = (name.as_str(), &bytes[..]);
-    let written = match question {
-        Question::Loops(request) => {
-            let answer = pool.install(|| identified(log, &case_file, &request))?;
-            Written {
-                json: answer.json(),
-                text: answer.text(),
-                page: answer.page(),
-                table: ("cycles.csv", answer.table()),
-            }
-        }
-        Question::Indentation(request) => {
-            let answer = pool.install(|| indentation(log, &case_file, &request))?;
-            Written {
-                json: answer.json(),
-                text: answer.text(),
-                page: answer.page(),
-                table: ("indentation.csv", answer.table()),
-            }
-        }
-    };
-    write(&folder, &written)?;
-    if as_json {
-        return terminal::answer_in_json(&written.json);
-    }
-    if !arguments.manner.quiet {
-        terminal::answer(&format!("{}\nwritten to {}", written.text, folder.display()))?;
-    }
-    Ok(())
+    let Identified { record, text, page, table } = pool.install(|| match question {
+        Question::Loops(request) => identified(log, &case_file, &request),
+        Question::Indentation(request) => indentation(log, &case_file, &request),
+    })?;
+    write_whole(&folder.join(IDENTIFIED), format!("{record:#}\n").as_bytes())?;
+    write_whole(&folder.join("identified.html"), page.as_bytes())?;
+    write_whole(&folder.join(table.0), table.1.as_bytes())?;
+    let text = format!("{text}\nwritten to {}", folder.display());
+    Ok(Answer::new(record, text, arguments.manner.quiet))
 }
 
 /// What a log is asked.
 enum Question {
     Loops(Request),
     Indentation(IndentationAsked),
-}
-
-/// What is written of an answer: its table with the name of its file.
-struct Written {
-    json: Value,
-    text: String,
-    page: String,
-    table: (&'static str, String),
 }
 
 fn one_key(keys: &[String]) -> Result<Option<String>, Failure> {
@@ -146,13 +118,4 @@ pub fn content(log: &Path) -> Result<Vec<u8>, Failure> {
 /// The folder for the answer, when none is named.
 fn default_folder(log: &Path) -> PathBuf {
     Path::new("results").join(format!("{}-identified", stem(log, "log").display()))
-}
-
-/// Writes the answer: numbers, a table, a page.
-fn write(folder: &Path, written: &Written) -> Result<(), Failure> {
-    write_whole(&folder.join(IDENTIFIED), format!("{:#}\n", written.json).as_bytes())?;
-    write_whole(&folder.join("identified.html"), written.page.as_bytes())?;
-    let (name, table) = &written.table;
-    write_whole(&folder.join(name), table.as_bytes())?;
-    Ok(())
 }

@@ -1,11 +1,10 @@
 //! `fret run`: from a case file to a folder of results, with a face for the time between.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
 use fret_core::history::Warning;
 use fret_core::history::{WornByLayer, WornThrough};
-use fret_core::run::{Checkpoint, RunError, Simulation};
+use fret_core::run::{Checkpoint, Simulation};
 use fret_core::study::StageQuantities;
 use serde_json::json;
 
@@ -279,15 +278,13 @@ impl Preparation {
         let simulation = Simulation::new(&self.plan).in_claimed_memory();
         let journey =
             || simulation.resume(from, observer).map(|history| (history.worn_through, history.worn_by_layer));
-        match catch_unwind(AssertUnwindSafe(|| self.pool.install(journey))) {
-            Ok(Ok(worn)) => Ok(worn),
-            Ok(Err(RunError::Interrupted { .. })) => {
+        defect::caught(|| Ok(self.pool.install(journey)?)).map_err(|failure| match failure {
+            Failure::Interrupted(_) => {
                 let kept = self.kept(&observer.tally);
-                Err(Failure::Interrupted(format!("{kept}; --resume continues from there")))
+                Failure::Interrupted(format!("{kept}; --resume continues from there"))
             }
-            Ok(Err(error)) => Err(Failure::Unsolved(error)),
-            Err(panic) => Err(Failure::Defect(defect::words_of(panic.as_ref()))),
-        }
+            failure => failure,
+        })
     }
 
     fn stage_name(&self, stage: usize) -> String {

@@ -15,7 +15,7 @@ use crate::failure::Failure;
 use crate::figures::figure;
 use crate::interrupt::{self, Listener};
 use crate::scatter::Scatter;
-use crate::terminal;
+use crate::terminal::Answer;
 use fret_results::CaseFile;
 
 /// Letters of a bar for a logarithmic derivative of one.
@@ -24,7 +24,7 @@ const UNIT_BAR: f64 = 10.0;
 const LONGEST_BAR: usize = 30;
 
 /// Derivatives of the results of a case.
-pub fn sensitivity(arguments: &SensitivityArguments, as_json: bool) -> Result<(), Failure> {
+pub fn sensitivity(arguments: &SensitivityArguments) -> Result<Answer, Failure> {
     let plan = CaseFile::asked(&arguments.case)?.planned()?;
     interrupt::listen();
     let pool = arguments.threads.pool()?;
@@ -34,15 +34,12 @@ pub fn sensitivity(arguments: &SensitivityArguments, as_json: bool) -> Result<()
     let request = Request { of, by, direction: None };
     let found = pool.install(|| gradient(&plan, &request, &mut Listener)).map_err(refused)?;
     let spreads = spreads(&found, &arguments.scatter)?;
-    if as_json {
-        let mut record = record(&found);
-        if !spreads.is_empty() {
-            record["first_order"] = spreads.iter().map(Spread::entry).collect();
-        }
-        return terminal::answer_in_json(&record);
+    let mut record = record(&found);
+    if !spreads.is_empty() {
+        record["first_order"] = spreads.iter().map(Spread::entry).collect();
     }
-    let parts = spreads.iter().map(Spread::part);
-    terminal::answer(&[table(&found)].into_iter().chain(parts).collect::<Vec<_>>().join("\n\n"))
+    let parts = std::iter::once(table(&found)).chain(spreads.iter().map(Spread::part));
+    Ok(Answer::new(record, parts.collect::<Vec<_>>().join("\n\n"), false))
 }
 
 /// How much a result scatters, to first order.

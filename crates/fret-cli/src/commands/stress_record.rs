@@ -5,6 +5,9 @@ use std::collections::BTreeMap;
 use fret_core::units::Units;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use crate::figures::UNLIMITED;
+use crate::table::{Cell, Columns};
+
 /// All of it.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct StressRecord {
@@ -52,6 +55,30 @@ pub struct LargestRecord {
     pub depth: f64,
     /// The layer, in words.
     pub layer: String,
+}
+
+/// Measures that are no tension at all where they are not above zero.
+const TENSIONS: [&str; 3] = ["tension", "hydrostatic", "peel"];
+
+impl LargestRecord {
+    /// What is told of it, the measure by what it is `called`.
+    pub fn columns<'a>(called: impl Fn(&str) -> String + 'a) -> Columns<'a, Self> {
+        Columns::<Self>::new()
+            .column("maximum", "", move |found| called(&found.measure))
+            .column("value", "pressure", |found| {
+                found.shown(found.value).map_or("none: compression everywhere".into(), Cell::Number)
+            })
+            .column("increment", "", |found| found.shown(found.increment))
+            .column("x", "length", |found| found.shown(found.x))
+            .column("y", "length", |found| found.shown(found.y))
+            .column("depth", "length", |found| found.shown(found.depth))
+            .column("in", "", |found| found.shown(found.layer.clone()))
+    }
+
+    /// What is told of it: nothing of a tension that is none.
+    fn shown<T>(&self, value: T) -> Option<T> {
+        (self.value > 0.0 || !TENSIONS.contains(&self.measure.as_str())).then_some(value)
+    }
 }
 
 /// Fatigue over a cycle.
@@ -188,9 +215,6 @@ pub struct FilmRecord {
 /// A number that may be beyond all bounds: in files the word "unlimited".
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounded(pub f64);
-
-/// The word for it.
-pub const UNLIMITED: &str = "unlimited";
 
 impl Serialize for Bounded {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

@@ -4,25 +4,22 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use fret_core::case::StressRequest;
-use fret_core::model::{Base, Dimension, HalfSpace};
+use fret_core::model::{Base, HalfSpace};
 use fret_core::subsurface::fatigue::LayerConstants;
 use fret_core::subsurface::largest::look;
 use fret_core::subsurface::{DepthPoint, Largest, LoadedSurface, Measure, StressField};
-use fret_core::units::Units;
 use serde_json::json;
 
 use super::fatigue::{Fatigue, Finished, Picture};
 use super::stress_record::{LargestRecord, StressRecord};
 use crate::commands::stress_kinds::{kind_of_stress, stress_called};
-use crate::csv::{Column, csv};
 use crate::drawing::section::Section;
 use crate::failure::Failure;
-use crate::figures::{counted, duration, figure};
+use crate::figures::{counted, duration, indented};
+use crate::table::Columns;
 use fret_results::Results;
 use fret_results::write_whole;
 
-/// Measures that are no tension at all where they are not above zero.
-const TENSIONS: [&str; 3] = ["tension", "hydrostatic", "peel"];
 /// More sections than this are not drawn.
 const MOST_SECTIONS: usize = 12;
 
@@ -136,16 +133,15 @@ impl<'a> StressTables<'a> {
             wall_s,
         };
         write_whole(&place.join("stress.json"), format!("{:#}\n", json!(record)).as_bytes())?;
-        let values = [0, 1, 2, 3, 4, 5].map(|place| move |(_, _, values): &AtDepth| values[place].into());
-        let mut columns: Vec<Column<'_, AtDepth>> = vec![
-            ("increment", "", &|(increment, ..)| (*increment).into()),
-            ("depth", "length", &|(_, point, _)| point.depth.into()),
-            ("layer", "", &|(_, point, _)| point.layer.into()),
-        ];
-        for (measure, value) in Measure::ALL.into_iter().zip(&values) {
-            columns.push((measure.name(), kind_of_stress(measure.name()), value));
+        let mut columns = Columns::<AtDepth>::new()
+            .column("increment", "", |(increment, ..)| *increment)
+            .column("depth", "length", |(_, point, _)| point.depth)
+            .column("layer", "", |(_, point, _)| point.layer);
+        for (place, measure) in Measure::ALL.into_iter().enumerate() {
+            let kind = kind_of_stress(measure.name());
+            columns = columns.column(measure.name(), kind, move |(_, _, values)| values[place]);
         }
-        let by_depth = csv(self.run.units(), &columns, self.by_depth.drain(..));
+        let by_depth = columns.csv(self.run.units(), &self.by_depth);
         write_whole(&place.join("depths.csv"), by_depth.as_bytes())?;
         for (name, content) in &fatigue.files {
             write_whole(&place.join(name), content.as_bytes())?;
@@ -180,38 +176,22 @@ impl<'a> StressTables<'a> {
         };
         let title = if self.run.case().title.is_empty() { "contact" } else { &self.run.case().title };
         let high = self.sections.iter().flatten().flatten().copied().fold(0.0, f64::max);
+        let section = |subject: &str, quantity: (&str, &str), values: &[Vec<f64>], range| {
+            let (units, interfaces) = (self.run.units(), &self.interfaces);
+            Section { title, subject, quantity, units, x, depths: &depths, values, interfaces, range }.svg()
+        };
+        let body = self.request.body.name();
         for index in (0..=last).filter(|&index| is_shown(index)) {
             let increment = self.surfaces[index].increment;
-            let subject =
-                format!("section at y = 0, increment {increment}, {} body", self.request.body.name());
-            let section = Section {
-                title,
-                subject: &subject,
-                quantity: ("von Mises stress", "pressure"),
-                units: self.run.units(),
-                x,
-                depths: &depths,
-                values: &self.sections[index],
-                interfaces: &self.interfaces,
-                range: Some([0.0, high]),
-            };
-            let name = format!("von_mises-{increment:05}.svg");
-            write_whole(&place.join(name), section.svg()?.as_bytes())?;
+            let subject = format!("section at y = 0, increment {increment}, {body} body");
+            let quantity = ("von Mises stress", "pressure");
+            let svg = section(&subject, quantity, &self.sections[index], Some([0.0, high]))?;
+            write_whole(&place.join(format!("von_mises-{increment:05}.svg")), svg.as_bytes())?;
         }
         for (name, values) in fatigue {
-            let subject = format!("section at y = 0, last cycle, {} body", self.request.body.name());
-            let section = Section {
-                title,
-                subject: &subject,
-                quantity: (&stress_called(name), kind_of_stress(name)),
-                units: self.run.units(),
-                x,
-                depths: &depths,
-                values,
-                interfaces: &self.interfaces,
-                range: None,
-            };
-            write_whole(&place.join(format!("{name}.svg")), section.svg()?.as_bytes())?;
+            let subject = format!("section at y = 0, last cycle, {body} body");
+            let svg = section(&subject, (&stress_called(name), kind_of_stress(name)), values, None)?;
+            write_whole(&place.join(format!("{name}.svg")), svg.as_bytes())?;
         }
         Ok(())
     }
@@ -226,32 +206,8 @@ impl<'a> StressTables<'a> {
                 counted(record.depths.len(), "depth"),
                 counted(record.increments.len(), "increment"),
             );
-        let head = |name: &str, kind: &str| Units::heading(self.run.units(), name, kind, Dimension::Plane);
-        let [value, x, y, depth] =
-            [("value", "pressure"), ("x", "length"), ("y", "length"), ("depth", "length")]
-                .map(|(name, kind)| head(name, kind));
-        let _ = writeln!(
-            text,
-            "  {:<18} {value:<12} {:<10} {x:<12} {y:<12} {depth:<12} in",
-            "maximum", "increment"
-        );
-        for found in &record.largest {
-            let name = found.measure.replace('_', " ");
-            if found.value <= 0.0 && TENSIONS.contains(&found.measure.as_str()) {
-                let _ = writeln!(text, "  {name:<18} none: compression everywhere");
-                continue;
-            }
-            let _ = writeln!(
-                text,
-                "  {name:<18} {:<12} {:<10} {:<12} {:<12} {:<12} {}",
-                figure(found.value),
-                found.increment,
-                figure(found.x),
-                figure(found.y),
-                figure(found.depth),
-                found.layer
-            );
-        }
+        let largest = LargestRecord::columns(|measure| measure.replace('_', " "));
+        text += &indented(&largest.text(&[18, 12, 10, 12, 12, 12], self.run.units(), &record.largest));
         if !fatigue.is_empty() {
             let _ = write!(text, "\n{fatigue}");
         }

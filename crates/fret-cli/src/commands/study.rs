@@ -1,18 +1,17 @@
 //! `fret study`: one case at many resolutions, how far each is from the reference and what it costs.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use fret_core::machine::memory;
 use fret_core::plan::Plan;
-use fret_core::run::{Observer, RunError};
+use fret_core::run::Observer;
 use fret_core::study::{
     ClosedForm, Level, Line, Place, Quantity, Reference, RefinementStudy, Resolutions, pressure_is_unbounded,
     solved_level,
 };
 use serde_json::{Value, json};
 
-use crate::arguments::StudyArguments;
+use crate::arguments::{StudyArguments, StudyRequest};
 use crate::defect;
 use crate::failure::Failure;
 use crate::figures::{counted, duration};
@@ -36,7 +35,7 @@ const TIMES: usize = 3;
 pub fn study(arguments: &StudyArguments) -> Result<Answer, Failure> {
     let case_file = CaseFile::asked(&arguments.case)?;
     let plan = case_file.planned()?;
-    let question = Question::new(arguments, &plan)?;
+    let question = Question::new(&arguments.request, &plan)?;
     let pool = arguments.threads.pool()?;
     let folder = arguments.out.clone().unwrap_or_else(|| {
         let mut name = case_file.stem().into_os_string();
@@ -79,9 +78,9 @@ pub struct Question {
 
 impl Question {
     /// What the words of a call ask about a plan.
-    pub fn new(arguments: &StudyArguments, plan: &Plan) -> Result<Self, Failure> {
-        let resolutions = resolutions(arguments, plan)?;
-        let against = Against::new(arguments.against.as_deref(), plan)?;
+    pub fn new(request: &StudyRequest, plan: &Plan) -> Result<Self, Failure> {
+        let resolutions = resolutions(request, plan)?;
+        let against = Against::new(request.against.as_deref(), plan)?;
         fits_memory(&resolutions, plan)?;
         Ok(Self { resolutions, against })
     }
@@ -139,8 +138,8 @@ pub fn studied(
     Ok(Studied { record, study, reference, lines, measured, choice })
 }
 
-fn resolutions(arguments: &StudyArguments, plan: &Plan) -> Result<Resolutions, Failure> {
-    let StudyArguments { cells, increments, tolerances, .. } = arguments;
+fn resolutions(request: &StudyRequest, plan: &Plan) -> Result<Resolutions, Failure> {
+    let StudyRequest { cells, increments, tolerances, .. } = request;
     if cells.is_empty() && increments.is_empty() && tolerances.is_empty() {
         return Ok(Resolutions::halving(plan));
     }
@@ -266,12 +265,8 @@ fn all_levels(
 
 /// A level, solved a few times where that is quick, with the least of its times.
 fn timed(plan: &Plan, observer: &mut dyn Observer) -> Result<Level, Failure> {
-    let mut once = || match catch_unwind(AssertUnwindSafe(|| solved_level(plan, &mut *observer))) {
-        Ok(Ok(level)) => Ok(level),
-        Ok(Err(RunError::Interrupted { .. })) => Err(Failure::Interrupted(String::new())),
-        Ok(Err(error)) => Err(Failure::Unsolved(error)),
-        Err(panic) => Err(Failure::Defect(defect::words_of(panic.as_ref()))),
-    };
+    let mut once =
+        || -> Result<Level, Failure> { defect::caught(|| Ok(solved_level(plan, &mut *observer)?)) };
     let mut best = once()?;
     for _ in 1..TIMES {
         if best.wall_s < QUICK {

@@ -228,10 +228,7 @@ impl<'a> Board<'a> {
                 let asks = asks_for_more(&plan);
                 let observer: &mut dyn Observer = if asks { &mut Keeper } else { &mut Listener };
                 let (history, outcome, common) = self.planned.common.solve(number, simulation, observer);
-                outcome.map_err(|error| match error {
-                    RunError::Interrupted { .. } => Failure::Interrupted(String::new()),
-                    error => Failure::Unsolved(error),
-                })?;
+                outcome?;
                 let answer = Answer::solved(&history, common);
                 drop(at_work);
                 if !asks {

@@ -2,9 +2,9 @@
 
 use maud::{Markup, html};
 
-use super::Drawing;
 use super::frame::{Frame, room_for};
 use super::scale::{Axis, Label};
+use super::{Drawing, figure_of};
 
 /// Size of a chart: narrow, so that its words are still read on a telephone.
 const WIDTH: f64 = 400.0;
@@ -50,10 +50,25 @@ impl Curve {
         Self { points, name: Some(name.to_owned()), colour, stroke: Stroke::Line, id: None }
     }
 
+    /// A line without a name.
+    pub fn plain(points: Vec<[f64; 2]>) -> Self {
+        Self { name: None, ..Self::line(points, "", 0) }
+    }
+
+    /// The same curve, drawn in another way.
+    pub fn drawn(self, stroke: Stroke) -> Self {
+        Self { stroke, ..self }
+    }
+
     /// A dashed line with a name: a closed form.
     pub fn dashed(points: Vec<[f64; 2]>, name: &str, colour: usize) -> Self {
-        Self { stroke: Stroke::Dashed, ..Self::line(points, name, colour) }
+        Self::line(points, name, colour).drawn(Stroke::Dashed)
     }
+}
+
+/// Points by their places and heights.
+pub fn joined(x: &[f64], y: &[f64]) -> Vec<[f64; 2]> {
+    x.iter().zip(y).map(|(x, y)| [*x, *y]).collect()
 }
 
 /// A chart.
@@ -116,6 +131,11 @@ impl Chart {
     /// The chart with the names of its curves below it.
     pub fn in_page(&self) -> Markup {
         html! { (self.drawing().in_page()) (self.legend()) }
+    }
+
+    /// The chart as a figure with its caption.
+    pub fn figure(&self, caption: &str) -> Markup {
+        figure_of(&self.in_page(), caption)
     }
 
     /// The chart alone.

@@ -8,6 +8,8 @@ use super::raster::Raster;
 use super::scale::{Axis, Label};
 use crate::failure::Failure;
 
+/// Width of a map of the surface.
+pub const SURFACE: f64 = 400.0;
 const TOP: f64 = 26.0;
 const BOTTOM: f64 = 45.0;
 /// Room right of a map that has no bar: about that of a bar.
@@ -47,6 +49,27 @@ pub struct Map {
 }
 
 impl Map {
+    /// A map of the surface without a bar; `label` names lengths.
+    pub fn of_surface(
+        what: &str,
+        label: impl Fn(&str) -> Label,
+        [x, y]: [[f64; 2]; 2],
+        image: String,
+    ) -> Self {
+        Self {
+            what: what.to_owned(),
+            width: SURFACE,
+            axes: ["x", "y"].map(label),
+            x,
+            y,
+            downward: false,
+            image,
+            id: None,
+            bar: None,
+            levels: Vec::new(),
+        }
+    }
+
     /// The map.
     pub fn drawing(&self) -> Result<Drawing, Failure> {
         let x_to_y = ((self.y[1] - self.y[0]) / (self.x[1] - self.x[0])).clamp(FLATTEST, TALLEST);

@@ -58,3 +58,8 @@ impl Drawing {
         svg.into_string() + "\n"
     }
 }
+
+/// A figure with its caption.
+pub fn figure_of(drawing: &Markup, caption: &str) -> Markup {
+    html! { figure { (drawing) figcaption { (caption) } } }
+}

@@ -6,30 +6,28 @@ use std::time::Instant;
 use fret_core::history::{History, KeptFields, StepRecord};
 use fret_core::model::Dimension;
 use fret_core::plan::Plan;
-use fret_core::run::{InCommon, RunError, Simulation};
+use fret_core::run::{InCommon, Simulation};
+use fret_core::units::Units;
 use maud::{Markup, html};
 use ndarray::Array2;
 use rayon::ThreadPool;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use super::part::{Part, ROOM};
 use super::question::{Question, Values, Written};
 use super::stress::stress_below;
-use crate::drawing::chart::{Chart, Curve, Stroke};
-use crate::drawing::map::Map;
-use crate::drawing::raster::Raster;
+use crate::drawing::chart::{Chart, Curve};
+use crate::drawing::map::{Map, SURFACE};
 use crate::drawing::scale::Label;
 use crate::drawing::section::Section;
 use crate::failure::Failure;
-use crate::figures::unit_of;
 use crate::interrupt::Keeper;
 use crate::report::html::{number, percent};
-use crate::report::legend_of_zones;
+use crate::report::{Measured, Part, Window, legend_of_zones};
 use crate::sweep::{Path, direction, last_cycle};
 
-/// Width of a map.
-const WIDTH: f64 = 400.0;
+/// Room around the contact in a picture, over its width.
+const ROOM: f64 = 0.12;
 
 /// What the page asks.
 #[derive(Debug, Clone, Deserialize)]
@@ -129,11 +127,8 @@ impl Solver {
         let (history, plan) = self.pool.install(|| {
             let (_, plan) = self.question.shown(values)?;
             let (history, outcome, _) = self.common.solve(0, Simulation::new(&plan), &mut Keeper);
-            match outcome {
-                Ok(()) => Ok((history, plan)),
-                Err(RunError::Interrupted { .. }) => Err(Failure::Interrupted(String::new())),
-                Err(error) => Err(Failure::Unsolved(error)),
-            }
+            outcome?;
+            Ok::<_, Failure>((history, plan))
         })?;
         let seconds = started.elapsed().as_secs_f64();
         self.last = Some(Solved { values: values.clone(), plan, history, seconds });
@@ -152,7 +147,16 @@ struct View<'a> {
     moves: bool,
     /// Which of them is shown.
     moment: usize,
-    dimension: Dimension,
+}
+
+impl Measured for View<'_> {
+    fn units(&self) -> Option<&Units> {
+        self.plan.case.units.as_ref()
+    }
+
+    fn dimension(&self) -> Dimension {
+        self.plan.grid.dimension()
+    }
 }
 
 impl<'a> View<'a> {
@@ -168,7 +172,7 @@ impl<'a> View<'a> {
         // the first of equal ones
         let largest = (0..steps.len()).rev().max_by(|a, b| load(a).total_cmp(&load(b))).unwrap_or(0);
         let moment = moment.unwrap_or(largest).min(steps.len().saturating_sub(1));
-        Self { plan, history, steps, path, moves, moment, dimension: plan.grid.dimension() }
+        Self { plan, history, steps, path, moves, moment }
     }
 
     fn record(&self) -> Option<&'a StepRecord> {
@@ -177,19 +181,6 @@ impl<'a> View<'a> {
 
     fn kept(&self) -> Option<&'a KeptFields> {
         self.history.fields_of(self.record()?.increment)
-    }
-
-    fn unit(&self, kind: &str) -> Option<String> {
-        unit_of(self.plan.case.units.as_ref(), kind, self.dimension)
-    }
-
-    fn label(&self, name: &str, kind: &str) -> Label {
-        Label { name: name.to_owned(), unit: self.unit(kind) }
-    }
-
-    fn number(&self, value: f64, kind: &str) -> String {
-        let words = number(value);
-        self.unit(kind).map_or_else(|| words.clone(), |unit| format!("{words}\u{a0}{unit}"))
     }
 
     fn figures(&self) -> Result<Value, Failure> {
@@ -203,34 +194,27 @@ impl<'a> View<'a> {
             return Ok(figures.into());
         };
         add("section", self.section(kept, pressure));
-        let window = Part::of(&self.history.grid, pressure);
+        let part = self.part(pressure);
         if let Some(zone) = kept.zone.as_ref().filter(|_| !self.plan.case.friction.is_frictionless()) {
-            let image = Raster::of_zones(window.size, |column, row| {
-                let [i, j] = window.cell(column, row);
-                f64::from(zone[[i, j]] as u8)
-            });
-            add("zones", html! { (self.map("stick and slip", &window, &image, None)?) (legend_of_zones()) });
+            let image = part.zones(|cell| f64::from(zone[cell] as u8))?;
+            add("zones", html! { (self.map("stick and slip", &part, image, None)?) (legend_of_zones()) });
         }
-        if self.dimension == Dimension::Plane {
+        if self.dimension() == Dimension::Plane {
             let most = pressure.iter().copied().fold(0.0, f64::max);
-            let image = Raster::of_values(window.size, [0.0, most], |column, row| {
-                let value = pressure[window.cell(column, row)];
-                if value > 0.0 { value } else { f64::NAN }
-            });
-            add("pressure", self.map("pressure", &window, &image, Some(most))?);
+            let value = |cell: [usize; 2]| if pressure[cell] > 0.0 { pressure[cell] } else { f64::NAN };
+            let image = part.values([0.0, most], value)?;
+            add("pressure", self.map("pressure", &part, image, Some(most))?);
         }
         Ok(figures.into())
     }
 
     fn loop_chart(&self) -> Chart {
-        let axes = match (self.moves, self.path.twists) {
-            (true, true) => [self.label("rotation", "rad"), self.label("torsional moment", "force x length")],
-            (true, false) => {
-                [self.label("relative displacement", "length"), self.label("tangential force", "force")]
-            }
-            (false, _) => [self.label("approach", "length"), self.label("normal force", "force")],
+        let axes = if self.moves {
+            self.loop_labels(self.path.twists)
+        } else {
+            [self.label("approach", "length"), self.label("normal force", "force")]
         };
-        let curve = Curve { name: None, ..Curve::line(self.path.points.clone(), "", 0) };
+        let curve = Curve::plain(self.path.points.clone());
         let here = self.path.points.get(self.moment).map(|at| (*at, "here"));
         Chart { here, ..Chart::new("the path of the load", axes, vec![curve]) }
     }
@@ -253,7 +237,7 @@ impl<'a> View<'a> {
                 curves.push(Curve::dashed(line(&|i| coefficient * pressure[[i, row]]), "friction bound", 2));
             }
             let shear = line(&|i| cosine * along[[i, row]] + sine * across[[i, row]]);
-            curves.push(Curve { stroke: Stroke::Line, ..Curve::line(shear, "shear", 1) });
+            curves.push(Curve::line(shear, "shear", 1));
         }
         let range = (first <= last).then(|| {
             let room = ROOM * (x[last] - x[first]).max(grid.spacing()[0]);
@@ -287,22 +271,24 @@ impl<'a> View<'a> {
         }
     }
 
-    fn map(&self, what: &str, window: &Part, image: &Raster, most: Option<f64>) -> Result<Markup, Failure> {
-        let y = match self.dimension {
-            Dimension::Plane => self.label("y", "length"),
-            Dimension::Line => Label::plain(""),
+    /// The part of the grid that maps show: the contact with some room around it.
+    fn part(&self, pressure: &Array2<f64>) -> Part {
+        let mut window = Window::new(self.history.grid.cells());
+        let touching = pressure.indexed_iter().filter(|(_, pressure)| **pressure > 0.0);
+        touching.for_each(|((i, j), _)| window.take([i, j]));
+        window.part_with(|wide| (ROOM * wide as f64).ceil() as usize)
+    }
+
+    fn map(&self, what: &str, part: &Part, image: String, most: Option<f64>) -> Result<Markup, Failure> {
+        let grid = &self.history.grid;
+        let length = |name: &str| match self.dimension() {
+            Dimension::Line if name == "y" => Label::plain(""),
+            _ => self.label(name, "length"),
         };
+        let edges = part.edges(|axis, cell| grid.centre(axis, cell), grid.spacing());
         let map = Map {
-            what: what.to_owned(),
-            width: WIDTH,
-            axes: [self.label("x", "length"), y],
-            x: window.edges[0],
-            y: window.edges[1],
-            downward: false,
-            image: image.address()?,
-            id: None,
             bar: most.map(|most| (self.label("pressure", "pressure"), [0.0, most])),
-            levels: Vec::new(),
+            ..Map::of_surface(what, length, edges, image)
         };
         Ok(map.drawing()?.in_page())
     }
@@ -314,11 +300,11 @@ impl<'a> View<'a> {
         let mut add =
             |id: &str, name: &str, value: String| told.push([id.to_owned(), name.to_owned(), value]);
         add("p0", "max pressure", self.number(record.max_pressure, "pressure"));
-        let name = match self.dimension {
+        let name = match self.dimension() {
             Dimension::Plane => "contact radius",
             Dimension::Line => "contact half-width",
         };
-        add("a", name, self.number(self.dimension.radius(record.contact_area), "length"));
+        add("a", name, self.number(self.dimension().radius(record.contact_area), "length"));
         add("approach", "approach", self.number(record.approach, "length"));
         if self.plan.case.friction.is_frictionless() {
             return told;
@@ -369,7 +355,7 @@ impl<'a> View<'a> {
             range: None,
         };
         let figure =
-            section.drawing(WIDTH)?.map_or_else(String::new, |drawing| drawing.in_page().into_string());
+            section.drawing(SURFACE)?.map_or_else(String::new, |drawing| drawing.in_page().into_string());
         let mut told = vec![
             ["mises".to_owned(), "max von Mises stress".to_owned(), self.number(most, "pressure")],
             ["depth".to_owned(), format!("its depth, {} body", below.body), self.number(depth, "length")],

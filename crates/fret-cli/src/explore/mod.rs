@@ -1,12 +1,11 @@
 //! A contact to play with: a page on this machine whose sliders solve the case again while they are dragged.
 //!
 //! From the ground: `sliders` (which numbers of a case can be dragged, and how far), `question` (the case with the numbers of the sliders,
-//! on a coarse grid), `stress` (the section below the contact), `part` (what of the grid is shown), `answer` (what is drawn and told of a solution), `page` (the page itself),
+//! on a coarse grid), `stress` (the section below the contact), `answer` (what is drawn and told of a solution), `page` (the page itself),
 //! `server` (who is answered, and the newest question first).
 
 mod answer;
 mod page;
-mod part;
 mod question;
 mod server;
 mod sliders;

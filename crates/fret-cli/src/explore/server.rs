@@ -3,7 +3,6 @@
 
 use std::io::Read;
 use std::net::{Ipv4Addr, SocketAddr};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::Duration;
 
@@ -218,9 +217,7 @@ fn answer(solver: &mut Solver, posted: &Posted) -> Value {
         What::Case => solver.text(asked).map(|text| json!({ "status": "written", "text": text })),
     };
     // A mistake in the program is the answer to one question, not the end of the page.
-    let outcome = catch_unwind(AssertUnwindSafe(ask))
-        .unwrap_or_else(|panic| Err(Failure::Defect(defect::words_of(panic.as_ref()))));
-    outcome.unwrap_or_else(|failure| {
+    defect::caught(ask).unwrap_or_else(|failure: Failure| {
         let record = failure.record();
         let mistakes = record.mistakes.unwrap_or_default();
         let why: Vec<String> = mistakes.into_iter().map(|mistake| mistake.message).collect();

@@ -1,18 +1,18 @@
-//! A measured indentation, and what is told of it: record, text, table and page.
+//! A measured indentation, and what is told of it.
 
 use fret_core::identify::{self, Constant, Indentation, IndentationRequest, Numbers};
 use maud::{Markup, html};
 use serde_json::{Map, Value, json};
 
 use super::record::{of_constant, rows_in_words};
-use super::{case_with, dotted, value_of};
-use crate::csv::{Column, csv};
+use super::{Identified, case_with, dotted, value_of};
 use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::scale::Label;
 use crate::failure::Failure;
 use crate::figures::{counted, figure};
-use crate::report::html::{figure_of, number, table};
+use crate::report::html::{number, table};
 use crate::report::whole_page;
+use crate::table::Columns;
 use fret_results::CaseFile;
 
 /// What is asked of an indentation, and the keys of the case that are fitted, such as `lower.coatings[0].young`.
@@ -24,13 +24,6 @@ pub struct IndentationAsked {
     pub keys: Vec<String>,
 }
 
-/// What is written of an indentation.
-#[derive(Debug)]
-pub struct IndentationAnswer {
-    /// What the log tells.
-    pub found: Indentation,
-}
-
 /// Fits numbers of a case to a measured indentation.
 ///
 /// # Errors
@@ -39,7 +32,7 @@ pub fn indentation(
     log: (&str, &[u8]),
     case_file: &CaseFile,
     asked: &IndentationAsked,
-) -> Result<IndentationAnswer, Failure> {
+) -> Result<Identified, Failure> {
     let case = case_file.case(None)?;
     let keys = &asked.keys;
     for (k, key) in keys.iter().enumerate() {
@@ -57,115 +50,108 @@ pub fn indentation(
         case_with(case_file, &numbers)
     };
     let numbers = Numbers { keys: numbers, case_with: &case_of };
-    Ok(IndentationAnswer { found: identify::indentation(log, &case, &numbers, &asked.request)? })
+    let found = &identify::indentation(log, &case, &numbers, &asked.request)?;
+    Ok(Identified {
+        record: record(found),
+        text: text(found),
+        page: page(found),
+        table: ("indentation.csv", points(found)),
+    })
 }
 
-impl IndentationAnswer {
-    /// All of it, as `identified.json` has it.
-    pub fn json(&self) -> Value {
-        let found = &self.found;
-        let along = |k: usize| found.points.iter().map(|point| point[k]).collect::<Vec<f64>>();
-        let computed = |k: usize| found.computed.iter().map(|point| point[k]).collect::<Vec<f64>>();
-        let parameters: Vec<Map<String, Value>> = found
-            .constants
-            .iter()
-            .enumerate()
-            .map(|(k, constant)| {
-                let mut entry = of_constant(constant);
-                let change = found.grid.as_ref().map(|grid| grid[k]);
-                entry.insert("change_on_half_the_cells".to_owned(), json!(change));
-                entry
-            })
-            .collect();
-        json!({
-            "log": found.log,
-            "units": {"length": found.units.length, "force": found.units.force},
-            "part": found.part.name(),
-            "parameters": parameters,
-            "touch": found.touch,
-            "frame_compliance": found.frame,
-            "noise": found.noise,
-            "correlation": found.correlation,
-            "solved_indentations": found.histories,
-            "skipped": {"rows": found.bad_rows.len(), "rows_in_words": rows_in_words(&found.bad_rows)},
-            "measured": {"line": found.lines, "depth": along(0), "force": along(1), "computed_force": along(2)},
-            "computed": {"depth": computed(0), "force": computed(1), "contact_depth": computed(2)},
-            "notes": found.notes,
+/// All of it, as `identified.json` has it.
+fn record(found: &Indentation) -> Value {
+    let along = |k: usize| found.points.iter().map(|point| point[k]).collect::<Vec<f64>>();
+    let computed = |k: usize| found.computed.iter().map(|point| point[k]).collect::<Vec<f64>>();
+    let parameters: Vec<Map<String, Value>> = found
+        .constants
+        .iter()
+        .enumerate()
+        .map(|(k, constant)| {
+            let mut entry = of_constant(constant);
+            let change = found.grid.as_ref().map(|grid| grid[k]);
+            entry.insert("change_on_half_the_cells".to_owned(), json!(change));
+            entry
         })
-    }
+        .collect();
+    json!({
+        "log": found.log,
+        "units": {"length": found.units.length, "force": found.units.force},
+        "part": found.part.name(),
+        "parameters": parameters,
+        "touch": found.touch,
+        "frame_compliance": found.frame,
+        "noise": found.noise,
+        "correlation": found.correlation,
+        "solved_indentations": found.histories,
+        "skipped": {"rows": found.bad_rows.len(), "rows_in_words": rows_in_words(&found.bad_rows)},
+        "measured": {"line": found.lines, "depth": along(0), "force": along(1), "computed_force": along(2)},
+        "computed": {"depth": computed(0), "force": computed(1), "contact_depth": computed(2)},
+        "notes": found.notes,
+    })
+}
 
-    /// What a person reads.
-    pub fn text(&self) -> String {
-        let found = &self.found;
-        let mut lines = vec![format!(
-            "{}: {} of {}, {} fitted with {}",
-            found.log,
-            counted(found.points.len(), "point"),
-            match found.part {
-                identify::Part::Whole => "the whole test".to_owned(),
-                part => part.name().to_owned(),
-            },
-            counted(found.constants.len(), "constant"),
-            counted(found.histories, "computed indentation"),
-        )];
-        lines.extend(rows_in_words(&found.bad_rows).map(|words| format!("  skipped: {words}")));
-        let width = found.constants.iter().map(|constant| constant.name.len()).max().unwrap_or(0).max(22);
-        for (k, constant) in found.constants.iter().enumerate() {
-            let name = &constant.name;
-            if !constant.told {
-                lines.push(format!("  {name:<width$} not told by this curve"));
-                continue;
-            }
-            let [low, high] = constant.interval.map(figure);
-            let (value, unit) = (figure(constant.value), found.units.of(constant.unit));
-            let value = format!("{value} {unit}");
-            let grid = found.grid.as_ref().map_or_else(String::new, |grid| {
-                format!("   on half of the cells: {}", figure(constant.value + grid[k]))
-            });
-            lines.push(format!("  {name:<width$} {}   95 %: {low} .. {high}{grid}", value.trim_end()));
+/// What a person reads.
+fn text(found: &Indentation) -> String {
+    let mut lines = vec![format!(
+        "{}: {} of {}, {} fitted with {}",
+        found.log,
+        counted(found.points.len(), "point"),
+        match found.part {
+            identify::Part::Whole => "the whole test".to_owned(),
+            part => part.name().to_owned(),
+        },
+        counted(found.constants.len(), "constant"),
+        counted(found.histories, "computed indentation"),
+    )];
+    lines.extend(rows_in_words(&found.bad_rows).map(|words| format!("  skipped: {words}")));
+    let width = found.constants.iter().map(|constant| constant.name.len()).max().unwrap_or(0).max(22);
+    for (k, constant) in found.constants.iter().enumerate() {
+        let name = &constant.name;
+        if !constant.told {
+            lines.push(format!("  {name:<width$} not told by this curve"));
+            continue;
         }
-        lines.push(format!("  {:<width$} {:.2} % of the largest", "load off the curve", 100.0 * found.noise));
-        lines.extend(found.notes.iter().map(|note| format!("  note: {note}")));
-        lines.join("\n")
+        let [low, high] = constant.interval.map(figure);
+        let (value, unit) = (figure(constant.value), found.units.of(constant.unit));
+        let value = format!("{value} {unit}");
+        let grid = found.grid.as_ref().map_or_else(String::new, |grid| {
+            format!("   on half of the cells: {}", figure(constant.value + grid[k]))
+        });
+        lines.push(format!("  {name:<width$} {}   95 %: {low} .. {high}{grid}", value.trim_end()));
     }
+    lines.push(format!("  {:<width$} {:.2} % of the largest", "load off the curve", 100.0 * found.noise));
+    lines.extend(found.notes.iter().map(|note| format!("  note: {note}")));
+    lines.join("\n")
+}
 
-    /// The points that were fitted, as CSV: line in the log, depth from the touch on, load, computed load, their difference.
-    pub fn table(&self) -> String {
-        let found = &self.found;
-        let columns: [Column<'_, (&usize, &[f64; 3])>; 5] = [
-            ("line", "", &|(line, _)| (**line).into()),
-            ("depth", "length", &|(_, point)| point[0].into()),
-            ("force", "force", &|(_, point)| point[1].into()),
-            ("computed_force", "force", &|(_, point)| point[2].into()),
-            ("residual", "force", &|(_, point)| (point[1] - point[2]).into()),
-        ];
-        let rows = found.lines.iter().zip(&found.points);
-        csv(found.has_units.then_some(&found.units), &columns, rows)
-    }
+/// The points that were fitted, as CSV: line in the log, depth from the touch on, load, computed load, their difference.
+fn points(found: &Indentation) -> String {
+    let columns = Columns::<(&usize, &[f64; 3])>::new()
+        .column("line", "", |(line, _)| **line)
+        .column("depth", "length", |(_, point)| point[0])
+        .column("force", "force", |(_, point)| point[1])
+        .column("computed_force", "force", |(_, point)| point[2])
+        .column("residual", "force", |(_, point)| point[1] - point[2]);
+    let rows = found.lines.iter().zip(&found.points);
+    columns.csv(found.has_units.then_some(&found.units), rows)
+}
 
-    /// The page with its pictures.
-    pub fn page(&self) -> String {
-        let found = &self.found;
-        let title = format!("Indentation of {}", found.log);
-        let content = html! {
-            h1 { (title) }
-            (constants(found))
-            (figure_of(
-                &beside(found).in_page(),
-                "Measured points, their depth from the first touch on, and the curve that the solver computes; dashed: without the compliance of the frame, where there is one."
-            ))
-            (figure_of(
-                &residuals(found).in_page(),
-                "Measured less computed load over the depth. Points without a course are noise; what loading and unloading have apart, or a course along the depth, the model does not have."
-            ))
-            p {
-                "Standard deviation of the loads about the curve: " (number(100.0 * found.noise)) " % of the largest load; correlation of neighbouring residuals: "
-                (number(found.correlation)) "; " (counted(found.histories, "computed indentation")) "."
-            }
-            ul { @for note in &found.notes { li { (note) } } }
-        };
-        whole_page(&title, &content)
-    }
+/// The page with its pictures.
+fn page(found: &Indentation) -> String {
+    let title = format!("Indentation of {}", found.log);
+    let content = html! {
+        h1 { (title) }
+        (constants(found))
+        (beside(found).figure("Measured points, their depth from the first touch on, and the curve that the solver computes; dashed: without the compliance of the frame, where there is one."))
+        (residuals(found).figure("Measured less computed load over the depth. Points without a course are noise; what loading and unloading have apart, or a course along the depth, the model does not have."))
+        p {
+            "Standard deviation of the loads about the curve: " (number(100.0 * found.noise)) " % of the largest load; correlation of neighbouring residuals: "
+            (number(found.correlation)) "; " (counted(found.histories, "computed indentation")) "."
+        }
+        ul { @for note in &found.notes { li { (note) } } }
+    };
+    whole_page(&title, &content)
 }
 
 fn constants(found: &Indentation) -> Markup {
@@ -187,7 +173,7 @@ fn axes(found: &Indentation, up: &str) -> [Label; 2] {
 }
 
 fn dots(points: Vec<[f64; 2]>) -> Curve {
-    Curve { stroke: Stroke::Dots, ..Curve::line(points, "measured", 1) }
+    Curve::line(points, "measured", 1).drawn(Stroke::Dots)
 }
 
 fn beside(found: &Indentation) -> Chart {

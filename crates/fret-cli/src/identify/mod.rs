@@ -13,7 +13,7 @@ mod tests;
 use std::path::Path;
 
 use fret_core::case::{Case, CaseError};
-use fret_core::identify::{self, Identification, IdentifyError, Key};
+use fret_core::identify::{self, IdentifyError, Key};
 use serde_json::Value;
 use toml::Table;
 
@@ -40,51 +40,39 @@ impl From<IdentifyError> for Failure {
     }
 }
 
-/// What is written of an identification.
+/// What is told of a log.
 #[derive(Debug)]
-pub struct Answer {
-    /// What the log tells.
-    pub found: Identification,
-}
-
-impl Answer {
-    /// All of it, as `identified.json` has it.
-    pub fn json(&self) -> Value {
-        record::record(&self.found)
-    }
-
-    /// What a person reads.
-    pub fn text(&self) -> String {
-        summary::summary(&self.found)
-    }
-
+pub struct Identified {
+    /// For programs, as `identified.json` has it.
+    pub record: Value,
+    /// For a person.
+    pub text: String,
     /// The page with its pictures.
-    pub fn page(&self) -> String {
-        page::page(&self.found)
-    }
-
-    /// The table of the cycles, as CSV.
-    pub fn table(&self) -> String {
-        table::table(&self.found)
-    }
+    pub page: String,
+    /// Name and content of a file: the cycles of the loops, or the points of the indentation, as CSV.
+    pub table: (&'static str, String),
 }
 
 /// Identifies a log by a case.
 ///
 /// # Errors
 /// When the log cannot be read as fretting loops of such a case, or the case cannot be solved.
-pub fn identify(log: (&str, &[u8]), case_file: &CaseFile, request: &Request) -> Result<Answer, Failure> {
+pub fn identify(log: (&str, &[u8]), case_file: &CaseFile, request: &Request) -> Result<Identified, Failure> {
     let case = case_file.case(None)?;
-    let with = |name: &str, value: f64| case_with(case_file, &[(name, value)]);
     let found = match &request.key {
         None => identify::identify(log, case, None, &request.log)?,
         Some(name) => {
-            let case_with = |value| with(name, value);
+            let case_with = |value| case_with(case_file, &[(name, value)]);
             let key = Key { name, value: value_of(case_file, name)?, case_with: &case_with };
             identify::identify(log, case, Some(key), &request.log)?
         }
     };
-    Ok(Answer { found })
+    Ok(Identified {
+        record: record::record(&found),
+        text: summary::summary(&found),
+        page: page::page(&found),
+        table: ("cycles.csv", table::table(&found)),
+    })
 }
 
 /// The positive number that stands at a key of the case.

@@ -6,7 +6,6 @@ use serde_json::{Value, json};
 
 use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::scale::Label;
-use crate::report::html::figure_of;
 
 /// Single cycles that a change of the sliding condition must explain: fewer, one after the other, are noise at the border.
 const CHANGE: usize = 5;
@@ -107,16 +106,10 @@ pub fn figures(found: &Identification) -> Markup {
     if found.cycles.len() < FEWEST {
         return html! {};
     }
-    let curve = |read: Read, name: &str, colour: usize, stroke: Stroke| Curve {
-        points: found
-            .cycles
-            .iter()
-            .map(|cycle| [cycle.measured.name, cycle.quantities.as_ref().and_then(read).unwrap_or(f64::NAN)])
-            .collect(),
-        name: Some(name.to_owned()),
-        colour,
-        stroke,
-        id: None,
+    let curve = |read: Read, name: &str, colour: usize| {
+        let value = |cycle: &Cycle| cycle.quantities.as_ref().and_then(read).unwrap_or(f64::NAN);
+        let points = found.cycles.iter().map(|cycle| [cycle.measured.name, value(cycle)]).collect();
+        Curve::line(points, name, colour)
     };
     let chart = |what: &str, unit: &str, curves: Vec<Curve>| {
         let unit = (!unit.is_empty()).then(|| found.unit_of(unit));
@@ -124,34 +117,33 @@ pub fn figures(found: &Identification) -> Markup {
         let is_drawn = curves.iter().any(|curve| curve.points.iter().any(|point| point[1].is_finite()));
         is_drawn.then(|| Chart::new(&format!("{what} over the cycles"), axes, curves))
     };
-    let line = Stroke::Line;
     let charts = [
         chart(
             "friction coefficient",
             "",
             vec![
-                curve(|all| all.energy_friction, "from energy and opening", 0, line),
-                curve(|all| all.plateau_friction, "from the plateaus", 1, Stroke::Dots),
+                curve(|all| all.energy_friction, "from energy and opening", 0),
+                curve(|all| all.plateau_friction, "from the plateaus", 1).drawn(Stroke::Dots),
             ],
         ),
         chart(
             "dissipated energy",
             "force x length",
-            vec![curve(|all| Some(all.dissipated_energy), "W_d", 0, line)],
+            vec![curve(|all| Some(all.dissipated_energy), "W_d", 0)],
         ),
-        chart("force amplitude", "force", vec![curve(|all| Some(all.force_amplitude), "Q*", 0, line)]),
+        chart("force amplitude", "force", vec![curve(|all| Some(all.force_amplitude), "Q*", 0)]),
         chart(
             "displacement amplitude",
             "length",
-            vec![curve(|all| Some(all.displacement_amplitude), "at the actuator", 0, line)],
+            vec![curve(|all| Some(all.displacement_amplitude), "at the actuator", 0)],
         ),
-        chart("slope after reversal", "force/length", vec![curve(|all| all.slope, "slope", 0, line)]),
+        chart("slope after reversal", "force/length", vec![curve(|all| all.slope, "slope", 0)]),
         chart(
             "energy ratio",
             "",
             vec![
-                curve(|all| Some(all.energy_ratio), "A at the actuator", 0, line),
-                curve(|all| all.contact_energy_ratio, "A of the contact", 1, line),
+                curve(|all| Some(all.energy_ratio), "A at the actuator", 0),
+                curve(|all| all.contact_energy_ratio, "A of the contact", 1),
             ],
         ),
     ];
@@ -163,7 +155,7 @@ pub fn figures(found: &Identification) -> Markup {
         h2 { "Over the cycles" }
         p { (caption) }
         @for chart in charts.iter().flatten() {
-            (figure_of(&chart.in_page(), &format!("{}.", chart.what)))
+            (chart.figure(&format!("{}.", chart.what)))
         }
     }
 }

@@ -7,7 +7,7 @@ use super::over_cycles;
 use super::table::{COLUMNS, Column};
 use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::scale::Label;
-use crate::report::html::{figure_of, number, table};
+use crate::report::html::{number, table};
 use crate::report::whole_page;
 
 /// Loops that the stack shows, at the most.
@@ -25,15 +25,9 @@ pub fn page(found: &Identification) -> String {
     let content = html! {
         h1 { (title) }
         (constants(found))
-        (figure_of(
-            &beside(found, axes.clone()).in_page(),
-            "Measured points without offset and drift, and the loop that the solver computes; dashed: the loop of the contact itself."
-        ))
+        (beside(found, axes.clone()).figure("Measured points without offset and drift, and the loop that the solver computes; dashed: the loop of the contact itself."))
         @if found.cycles.len() > 1 {
-            (figure_of(
-                &stack(found, axes).in_page(),
-                "Fretting log: the loops one after the other, each moved to the right and up; the first at the bottom."
-            ))
+            (stack(found, axes).figure("Fretting log: the loops one after the other, each moved to the right and up; the first at the bottom."))
         }
         (over_cycles::figures(found))
         (rows(found))
@@ -65,20 +59,13 @@ fn beside(found: &Identification, axes: [Label; 2]) -> Chart {
     let computed = |along: usize| -> Vec<[f64; 2]> {
         found.computed.iter().map(|point| [point[along], point[1]]).collect()
     };
-    let curve = |points: Vec<[f64; 2]>, name: &str, colour: usize, stroke: Stroke| Curve {
-        points,
-        name: Some(name.to_owned()),
-        colour,
-        stroke,
-        id: None,
-    };
     Chart::new(
         "measured and computed fretting loop",
         axes,
         vec![
-            curve(found.points(), "measured", 1, Stroke::Dots),
-            curve(computed(0), "computed, at the actuator", 0, Stroke::Line),
-            curve(computed(2), "computed, the contact's own", 2, Stroke::Dashed),
+            Curve::line(found.points(), "measured", 1).drawn(Stroke::Dots),
+            Curve::line(computed(0), "computed, at the actuator", 0),
+            Curve::dashed(computed(2), "computed, the contact's own", 2),
         ],
     )
 }
@@ -101,13 +88,7 @@ fn stack(found: &Identification, axes: [Label; 2]) -> Chart {
         let points = cycle.displacement.iter().zip(&cycle.force);
         let mut points: Vec<[f64; 2]> = points.map(|(d, q)| [d + moved * along, q + moved * up]).collect();
         points.extend(points.first().copied());
-        Curve {
-            points,
-            name: None,
-            colour: 0,
-            stroke: if k + 1 == shown.len() { Stroke::Line } else { Stroke::Faint },
-            id: None,
-        }
+        Curve::plain(points).drawn(if k + 1 == shown.len() { Stroke::Line } else { Stroke::Faint })
     });
     Chart::new("fretting log: loops of the cycles", axes, curves.collect())
 }

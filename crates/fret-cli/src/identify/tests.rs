@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use fret_core::identify::IndentationRequest;
 
-use super::indentation::{IndentationAnswer, IndentationAsked, indentation};
-use super::{Answer, Request, identify};
+use super::indentation::{IndentationAsked, indentation};
+use super::{Identified, Request, identify};
 use crate::failure::Failure;
 use crate::figures::figure;
 use fret_results::{Beside, CaseFile};
@@ -18,7 +18,7 @@ const CASE: &str = "[units]\nlength = \"mm\"\nforce = \"N\"\n[grid]\ncells = [24
 /// Three cycles of a hundred points, by a formula (friction coefficient 0.45, rig 30 kN/mm), from the middle of the displacement on.
 const LOOP: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/golden/logs/loop.csv"));
 
-fn answer(log: &str, request: &Request) -> Answer {
+fn answer(log: &str, request: &Request) -> Identified {
     let beside = Beside { folder: PathBuf::new(), contents: Vec::new() };
     let case = CaseFile::of_text("case.toml", CASE.to_owned(), beside);
     identify(("log.csv", log.as_bytes()), &case, request).unwrap_or_else(|failure| panic!("{failure:?}"))
@@ -37,7 +37,7 @@ fn a_cycle_that_was_skipped_is_named_and_empty() {
         }
     }
     let answer = answer(&log, &Request::default());
-    let (text, table, json) = (answer.text(), answer.table(), answer.json());
+    let (text, table, json) = (answer.text, answer.table.1, answer.record);
     assert!(
         text.starts_with("log.csv: 3 of 4 cycles used, fitted: cycle 4\n  skipped: 3 (points are missing"),
         "{text}"
@@ -59,15 +59,15 @@ fn a_cycle_that_was_skipped_is_named_and_empty() {
     assert_eq!(spans.len(), 1);
     assert_eq!((&spans[0]["from"], &spans[0]["to"]), (&serde_json::json!(1.0), &serde_json::json!(4.0)));
     assert!(text.contains("over the cycles        gross slip in cycles 1 to 4"), "{text}");
-    assert!(answer.page().contains("dissipated energy over the cycles"));
-    assert!(answer.page().contains("Fretting loops of log.csv"));
+    assert!(answer.page.contains("dissipated energy over the cycles"));
+    assert!(answer.page.contains("Fretting loops of log.csv"));
 }
 
 /// A number of the case is fitted beside the other constants; a key where none stands is refused.
 #[test]
 fn a_key_of_the_case_is_fitted_or_refused() {
     let request = |key: &str| Request { key: Some(key.to_owned()), ..Request::default() };
-    let json = answer(LOOP, &request("lower.substrate.young")).json();
+    let json = answer(LOOP, &request("lower.substrate.young")).record;
     let young = &json["parameters"][3];
     assert_eq!(young["name"], "lower.substrate.young");
     let [low, high] = ["low", "high"].map(|key| young[key].as_f64().unwrap());
@@ -94,7 +94,7 @@ fn hertz() -> String {
     })
 }
 
-fn indented(keys: &[&str], request: IndentationRequest) -> Result<IndentationAnswer, Failure> {
+fn indented(keys: &[&str], request: IndentationRequest) -> Result<Identified, Failure> {
     let beside = Beside { folder: PathBuf::new(), contents: Vec::new() };
     let case = CaseFile::of_text("case.toml", PRESSED.to_owned(), beside);
     let keys = keys.iter().map(|key| (*key).to_owned()).collect();
@@ -105,7 +105,7 @@ fn indented(keys: &[&str], request: IndentationRequest) -> Result<IndentationAns
 #[test]
 fn an_indentation_is_written_as_one_answer() {
     let answer = indented(&["lower.substrate.young"], IndentationRequest::default()).unwrap();
-    let (json, text, table, page) = (answer.json(), answer.text(), answer.table(), answer.page());
+    let (json, text, table, page) = (answer.record, answer.text, answer.table.1, answer.page);
     let young = json["parameters"][0]["value"].as_f64().unwrap();
     assert!((young / 70e3 - 1.0).abs() < 0.01, "{young}");
     assert!((json["touch"].as_f64().unwrap() - 0.4e-3).abs() < 2e-6, "{json}");
@@ -168,11 +168,11 @@ fn forces_of_a_line_contact_are_those_of_a_unit_of_its_length() {
     let [plain, kilo] = ["N/mm", "kN/m"].map(|unit| of(unit).unwrap_or_else(|failure| panic!("{failure:?}")));
     let heads =
         "cycle,points,dissipated_energy [N],force_amplitude [N/mm],displacement_amplitude [mm],opening [mm],";
-    let (table, text, json) = (plain.table(), plain.text(), plain.json());
+    let (table, text, json) = (plain.table.1, plain.text, plain.record);
     assert!(table.starts_with(heads) && table.contains("slope_after_reversal [N/mm^2]"), "{table}");
-    assert_eq!(table, kilo.table());
+    assert_eq!(table, kilo.table.1);
     let friction = &json["parameters"][0];
     assert!((friction["value"].as_f64().unwrap() / 0.45 - 1.0).abs() < 0.01, "{json}");
     assert_eq!(json["parameters"][1]["unit"], "force/length^2");
-    assert!(text.contains("N/mm^2   95 %") && plain.page().contains("tangential force [N/mm]"), "{text}");
+    assert!(text.contains("N/mm^2   95 %") && plain.page.contains("tangential force [N/mm]"), "{text}");
 }

@@ -1,8 +1,11 @@
 //! Numbers as they are printed, and the parts that all chapters are made of. Words of a case are escaped by the templates.
 
+use std::borrow::Borrow;
+
 use maud::{Markup, html};
 
 use crate::figures::figure;
+use crate::table::Columns;
 
 use crate::drawing::scale::superscript;
 
@@ -74,9 +77,14 @@ pub fn table(head: &[&str], rows: &[Vec<String>]) -> Markup {
     }
 }
 
-/// A figure with its caption.
-pub fn figure_of(drawing: &Markup, caption: &str) -> Markup {
-    html! { figure { (drawing) figcaption { (caption) } } }
+/// A table of columns; `number` prints one beside the kind of its unit.
+pub fn grid<R, B: Borrow<R>>(
+    columns: &Columns<'_, R>,
+    rows: impl IntoIterator<Item = B>,
+    number: impl Fn(f64, &str) -> String,
+) -> Markup {
+    let row = |row: B| columns.cells(row.borrow(), |_, value, kind| number(value, kind));
+    table(&columns.names(), &rows.into_iter().map(row).collect::<Vec<_>>())
 }
 
 /// Figures side by side where there is room.

@@ -4,6 +4,7 @@ use fret_core::model::{Body, Control, Dimension};
 use fret_core::study::{PartialSlip, Pressed};
 use maud::{Markup, html};
 
+use super::Measured;
 use super::overview::Overview;
 use crate::methods::paragraph;
 

@@ -1,26 +1,32 @@
 //! A run, a sweep or a study in one page: HTML with its style, its drawings and its script inside, so that it needs neither network nor other files, and
 //! tells the browser to refuse both.
 //!
-//! From the ground: `html` (numbers and parts), `overview` (the run as a whole, and the closed forms that speak about it), `window` (what of
+//! From the ground: `html` (numbers and parts), `measured` (numbers with their units), `overview` (the run as a whole, and the closed forms that speak about it), `window` (what of
 //! the grid is shown), `chapters` (what the page tells), and the page itself here; `sweep` and `study` are pages of their own.
 
 mod chapters;
 pub mod html;
 mod literature;
+mod measured;
 mod overview;
 pub mod study;
 pub mod sweep;
 mod window;
 
+use std::fs;
+use std::path::Path;
+
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use serde::de::DeserializeOwned;
 
 use crate::drawing;
 use crate::failure::Failure;
-pub use chapters::{cell_of_pixel, json_in_page, legend_of_zones};
+pub use chapters::{json_in_page, legend_of_zones};
 use fret_results::Results;
+pub use measured::Measured;
 use overview::Overview;
 pub use sweep::called;
-pub use window::Window;
+pub use window::{Part, Window};
 
 /// The style of the page.
 const STYLE: &str = include_str!("page.css");
@@ -39,6 +45,13 @@ pub fn page(results: &Results) -> Result<String, Failure> {
 /// A page with the style, the script and the limits of all.
 pub fn whole_page(title: &str, content: &Markup) -> String {
     page_with(title, content, &PageParts { policy: POLICY, style: "", script: SCRIPT })
+}
+
+/// An answer of another command, as it was written; `again` says what to do where it cannot be read.
+pub fn read_answer<T: DeserializeOwned>(path: &Path, again: &str) -> Result<T, Failure> {
+    let refuse = |why: String| Failure::Call(format!("{}: {why}", path.display()), again.to_owned());
+    let text = fs::read(path).map_err(|error| refuse(error.to_string()))?;
+    serde_json::from_slice(&text).map_err(|error| refuse(format!("cannot be read: {error}")))
 }
 
 /// What a page has of its own.

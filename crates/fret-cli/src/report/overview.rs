@@ -4,8 +4,10 @@ use fret_core::history::CycleRecord;
 use fret_core::model::Dimension;
 use fret_core::plan::Coupling;
 use fret_core::study::{Loaded, NormalForm, TangentialForm};
+use fret_core::units::Units;
 
-use super::html::{given, number};
+use super::Measured;
+use crate::drawing::chart::joined;
 use crate::drawing::scale::Label;
 use fret_results::Results;
 
@@ -72,37 +74,6 @@ impl<'a> Overview<'a> {
         }
     }
 
-    /// The unit of a kind of quantity such as `force x length`, where the case declares units.
-    pub fn unit(&self, kind: &str) -> Option<String> {
-        let unit = self.results.units()?.of(self.dimension().kind(kind));
-        Some(unit.replace("^2", "²").replace("^3", "³"))
-    }
-
-    /// Whether the contact has two axes or is a line contact.
-    pub fn dimension(&self) -> Dimension {
-        self.results.grid().dimension()
-    }
-
-    /// The name of an axis with its unit.
-    pub fn label(&self, name: &str, kind: &str) -> Label {
-        Label { name: name.to_owned(), unit: self.unit(kind) }
-    }
-
-    /// A printed number with its unit.
-    pub fn with_unit(&self, number: &str, kind: &str) -> String {
-        self.unit(kind).map_or_else(|| number.to_owned(), |unit| format!("{number}\u{a0}{unit}"))
-    }
-
-    /// A number of the results with its unit.
-    pub fn number(&self, value: f64, kind: &str) -> String {
-        self.with_unit(&number(value), kind)
-    }
-
-    /// A number of the case with its unit.
-    pub fn given(&self, value: f64, kind: &str) -> String {
-        self.with_unit(&given(value), kind)
-    }
-
     /// Whether there is no friction, and so neither stick nor slip.
     pub fn is_frictionless(&self) -> bool {
         self.results.is_frictionless()
@@ -131,7 +102,6 @@ impl<'a> Overview<'a> {
     /// The tangential load: force and motion of the loop, or moment and rotation where that is what moves.
     pub fn loop_points(&self) -> Vec<[f64; 2]> {
         let table = &self.results.table;
-        let joined = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| [*x, *y]).collect();
         if self.twists {
             joined(table.column("twist"), table.column("twist_moment"))
         } else if self.direction.is_some() {
@@ -143,11 +113,9 @@ impl<'a> Overview<'a> {
     }
 
     /// Names of the axes of [`Self::loop_points`].
-    pub fn loop_labels(&self) -> [Label; 2] {
-        if self.twists {
-            [self.label("rotation", "rad"), self.label("torsional moment", "force x length")]
-        } else if self.direction.is_some() {
-            [self.label("relative displacement", "length"), self.label("tangential force", "force")]
+    pub fn labels_of_loop(&self) -> [Label; 2] {
+        if self.twists || self.direction.is_some() {
+            self.loop_labels(self.twists)
         } else {
             [self.label(self.closeness().0, "length"), self.label("normal force", "force")]
         }
@@ -247,6 +215,16 @@ impl<'a> Overview<'a> {
         }
         chosen.dedup();
         chosen
+    }
+}
+
+impl Measured for Overview<'_> {
+    fn units(&self) -> Option<&Units> {
+        self.results.units()
+    }
+
+    fn dimension(&self) -> Dimension {
+        self.results.grid().dimension()
     }
 }
 

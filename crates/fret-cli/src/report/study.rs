@@ -2,15 +2,14 @@
 //! the time that a level took. Read back from `study.json`.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::Path;
 
 use fret_core::model::Dimension;
 use fret_core::study::{Kind, Source};
 use maud::{Markup, html};
 
-use super::html::{chapter, figure_of, side_by_side, table};
-use super::whole_page;
+use super::html::{chapter, side_by_side, table};
+use super::{read_answer, whole_page};
 use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::scale::Label;
 use crate::failure::Failure;
@@ -25,13 +24,7 @@ pub const STUDY: &str = "study.json";
 /// # Errors
 /// When the answer of the study cannot be read.
 pub fn page(folder: &Path) -> Result<(String, usize), Failure> {
-    let path = folder.join(STUDY);
-    let refuse = |why: String| {
-        Failure::Call(format!("{}: {why}", path.display()), "run `fret study` again".to_owned())
-    };
-    let text = fs::read(&path).map_err(|error| refuse(error.to_string()))?;
-    let study: StudyRecord =
-        serde_json::from_slice(&text).map_err(|error| refuse(format!("cannot be read: {error}")))?;
+    let study: StudyRecord = read_answer(&folder.join(STUDY), "run `fret study` again")?;
     let levels = study.lines.iter().map(|line| line.levels.len()).sum();
     let title = format!("Study: {}", study.title);
     let content = html! {
@@ -94,21 +87,16 @@ fn refined(line: &LineRecord) -> Markup {
             let at = |level: &LevelRecord| Some([of(level), level.errors.get(*name).copied()??]);
             let mut points: Vec<[f64; 2]> = levels.iter().filter_map(at).collect();
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            let dots = Curve {
-                points: points.clone(),
-                name: None,
-                colour: place % 6,
-                stroke: Stroke::Dots,
-                id: None,
-            };
-            [Curve::line(points, &name.replace('_', " "), place % 6), dots]
+            let line = Curve::line(points, &name.replace('_', " "), place % 6);
+            let dots = Curve { name: None, ..line.clone() }.drawn(Stroke::Dots);
+            [line, dots]
         };
         names.iter().enumerate().flat_map(curve).collect()
     };
     let figure = |axis: Label, of: &dyn Fn(&LevelRecord) -> f64, caption: &str| {
         let axes = [axis, Label::plain("relative error")];
         let chart = Chart::new("relative error of the levels", axes, over(of));
-        figure_of(&Chart { logarithmic: true, ..chart }.in_page(), caption)
+        Chart { logarithmic: true, ..chart }.figure(caption)
     };
     let what = match refined {
         Kind::Increments => "increments per stage or cycle",

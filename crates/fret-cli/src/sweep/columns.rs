@@ -1,7 +1,7 @@
 //! The numbers of a point: the columns of `summary.csv`, and what the page of a sweep draws. Those of the last increment and the last cycle
 //! every sweep has; those of stresses, fatigue, cracks, coatings and heat the sweeps whose cases ask for them.
 
-use fret_core::history::{self, CYCLE_COLUMNS, Column, CycleRecord, STEP_COLUMNS, StepRecord};
+use fret_core::history::{self, CYCLE_COLUMNS, Column, CycleRecord, STEP_COLUMNS};
 use fret_core::subsurface::Measure;
 use fret_core::subsurface::fatigue::Parameter;
 use serde_json::{Value, json};
@@ -172,19 +172,17 @@ pub fn columns(answers: &[Option<Answer>]) -> Vec<SummaryColumn> {
         SummaryColumn { name, kind: kind.to_owned(), values }
     };
     let mut columns = Vec::new();
-    for column in at_end(&END) {
+    let at_end = |name: &&str| {
+        let column = STEP_COLUMNS.iter().find(|column| column.name == *name)?;
         let value = |place: usize| Some(told(column, numbers[place]?.end.as_ref()?));
-        columns.push(of_records(column.name.to_owned(), column.unit, &value));
-    }
+        Some(of_records(column.name.to_owned(), column.unit, &value))
+    };
+    columns.extend(END.iter().filter_map(at_end));
     for column in of_cycle() {
         let value = |place: usize| Some(told(column, numbers[place]?.cycle.as_ref()?));
         columns.push(of_records(format!("cycle_{}", column.name), column.unit, &value));
     }
-    let mut asked = Vec::new();
-    for column in at_end(&ROLLING) {
-        let value = |place: usize| Some(told(column, numbers[place]?.end.as_ref()?));
-        asked.push(of_records(column.name.to_owned(), column.unit, &value));
-    }
+    let mut asked: Vec<SummaryColumn> = ROLLING.iter().filter_map(at_end).collect();
     let stress = |place: usize| -> Option<&StressRecord> { numbers[place]?.stress.as_ref() };
     for measure in Measure::ALL {
         let largest = |place: usize| {
@@ -217,11 +215,6 @@ pub fn columns(answers: &[Option<Answer>]) -> Vec<SummaryColumn> {
     asked.retain(|column| column.values.iter().any(|value| !value.is_null()));
     columns.extend(asked);
     columns
-}
-
-/// Columns of the last increment, by their names.
-fn at_end(names: &'static [&'static str]) -> impl Iterator<Item = &'static Column<StepRecord>> {
-    names.iter().filter_map(|name| STEP_COLUMNS.iter().find(|column| column.name == *name))
 }
 
 /// Columns of the last cycle.

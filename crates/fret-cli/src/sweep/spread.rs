@@ -9,12 +9,12 @@ use fret_core::uncertainty::{
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use crate::figures::figure;
+use crate::table::Columns;
 
 /// Width of the names on the left.
 const NAMES: usize = 32;
-/// Width of a column of numbers.
-const COLUMN: usize = 13;
+/// Widths of the columns of the table.
+const WIDTHS: [usize; 5] = [NAMES - 1, 12, 12, 12, 12];
 
 /// A number that varies by less, relative, does not: the last digits of a prescribed force.
 const ROUNDING: f64 = 1e-13;
@@ -53,7 +53,7 @@ pub struct PointRecord {
 pub type Quantities = BTreeMap<String, QuantityRecord>;
 
 /// What the samples say of a number.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct QuantityRecord {
     /// Its statistics.
     #[serde(flatten)]
@@ -63,18 +63,20 @@ pub struct QuantityRecord {
     pub sobol_indices: Option<BTreeMap<String, Sensitivity>>,
 }
 
-/// A number of the answers.
-struct Quantity {
-    name: String,
-    statistics: Statistics,
-    /// One for each key, where they were asked for and the number varies.
-    indices: Option<Vec<Sensitivity>>,
-}
-
-impl Quantity {
-    /// Whether the number varies by more than rounding.
-    fn varies(&self) -> bool {
-        self.statistics.varies(ROUNDING)
+impl QuantityRecord {
+    /// What is told of numbers by their names, the first column under a head of its own; a name in words as it is `called`.
+    pub fn columns<'a>(head: String, called: impl Fn(&str) -> String + 'a) -> Columns<'a, (String, Self)> {
+        let reads: [(&str, fn(&Statistics) -> f64); 5] = [
+            ("mean", |of| of.mean),
+            ("deviation", |of| of.deviation),
+            ("2.5 %", |of| of.quantiles[0]),
+            ("median", |of| of.quantiles[2]),
+            ("97.5 %", |of| of.quantiles[4]),
+        ];
+        let name = Columns::new().column(head, "", move |(name, _): &(String, Self)| called(name));
+        reads
+            .into_iter()
+            .fold(name, |columns, (name, read)| columns.column(name, "", move |(_, of)| read(&of.statistics)))
     }
 }
 
@@ -91,7 +93,8 @@ type Values = Vec<(String, toml::Value)>;
 /// The samples at one point of the axes.
 struct AtPoint {
     values: Values,
-    quantities: Vec<Quantity>,
+    /// Numbers of the answers, in the order of their columns.
+    quantities: Vec<(String, QuantityRecord)>,
 }
 
 impl<'a> Spread<'a> {
@@ -107,11 +110,10 @@ impl<'a> Spread<'a> {
         let each = design.points();
         let quantity = |(name, values): (&String, &[f64])| {
             let statistics = statistics(&values[..own.min(values.len())])?;
-            let mut quantity = Quantity { name: name.clone(), statistics, indices: None };
-            if design.indices && quantity.varies() {
-                quantity.indices = sensitivity(values, design.count);
-            }
-            Some(quantity)
+            let asked = design.indices && statistics.varies(ROUNDING);
+            let indices = asked.then(|| sensitivity(values, design.count)).flatten();
+            let sobol_indices = indices.map(|indices| keys.iter().cloned().zip(indices).collect());
+            Some((name.clone(), QuantityRecord { statistics, sobol_indices }))
         };
         let at_point = |(place, values): (usize, Values)| {
             let part = |values: &'a [f64]| values.chunks(each).nth(place).unwrap_or_default();
@@ -123,15 +125,7 @@ impl<'a> Spread<'a> {
 
     /// For `uncertainty.json`.
     pub fn record(&self) -> SpreadRecord {
-        let quantities = |point: &AtPoint| -> Quantities {
-            let one = |Quantity { name, statistics, indices }: &Quantity| {
-                let of_keys =
-                    indices.as_ref().map(|indices| self.keys.iter().cloned().zip(indices.iter().copied()));
-                let sobol_indices = of_keys.map(Iterator::collect);
-                (name.clone(), QuantityRecord { statistics: *statistics, sobol_indices })
-            };
-            point.quantities.iter().map(one).collect()
-        };
+        let quantities = |point: &AtPoint| -> Quantities { point.quantities.iter().cloned().collect() };
         let point = |point: &AtPoint| {
             let values = point.values.iter().map(|(key, value)| (key.clone(), json!(value)));
             PointRecord { values: values.collect(), quantities: quantities(point) }
@@ -163,33 +157,15 @@ impl<'a> Spread<'a> {
     }
 
     fn part(&self, point: &AtPoint) -> String {
-        let varying = || point.quantities.iter().filter(|quantity| quantity.varies());
-        let samples = varying().map(|quantity| quantity.statistics.count).max().unwrap_or(0);
-        let mut table = format!("{:<NAMES$}", format!("{samples} samples"));
-        for head in ["mean", "deviation", "2.5 %", "median", "97.5 %"] {
-            let _ = write!(table, "{head:<COLUMN$}");
-        }
-        table.truncate(table.trim_end().len());
-        table.push('\n');
-        for Quantity { name, statistics, .. } in varying() {
-            let [low, _, median, _, high] = statistics.quantiles;
-            let _ = write!(table, "{name:<NAMES$}");
-            for value in [statistics.mean, statistics.deviation, low, median, high] {
-                let word = match value {
-                    f64::INFINITY => "unlimited".to_owned(),
-                    value if value.is_nan() => "-".to_owned(),
-                    value => figure(value),
-                };
-                let _ = write!(table, "{word:<COLUMN$}");
-            }
-            table.truncate(table.trim_end().len());
-            table.push('\n');
-        }
+        let varying = || point.quantities.iter().filter(|(_, of)| of.statistics.varies(ROUNDING));
+        let samples = varying().map(|(_, of)| of.statistics.count).max().unwrap_or(0);
+        let columns = QuantityRecord::columns(format!("{samples} samples"), |name| name.to_owned());
+        let mut table = columns.text(&WIDTHS, None, varying());
         if self.design.indices {
             table.push_str("\nSobol' indices, first order and total\n");
-            for Quantity { name, indices, .. } in varying() {
-                let Some(indices) = indices else { continue };
-                for (key, index) in self.keys.iter().zip(indices) {
+            for (name, of) in varying() {
+                let Some(indices) = &of.sobol_indices else { continue };
+                for (key, index) in self.keys.iter().filter_map(|key| indices.get_key_value(key)) {
                     let _ =
                         writeln!(table, "{name:<NAMES$}{key:<34} {:>6.3} {:>6.3}", index.first, index.total);
                 }

@@ -2,19 +2,17 @@
 
 use maud::{Markup, html};
 
-use crate::drawing::chart::{Chart, Curve, Stroke};
+use crate::drawing::chart::{Chart, Curve, Stroke, joined};
 use crate::drawing::scale::Label;
 use crate::figures::duration;
-use crate::report::html::{chapter, figure_of, pairs, side_by_side};
+use crate::report::html::{chapter, pairs, side_by_side};
 use crate::report::overview::Overview;
 
 /// Residuals and work.
 pub fn convergence(view: &Overview<'_>) -> Markup {
     let history = &view.results.table;
     let curve = |name: &str, stroke: Stroke| {
-        let points =
-            history.column("increment").iter().zip(history.column(name)).map(|(x, y)| [*x, *y]).collect();
-        vec![Curve { name: None, stroke, ..Curve::line(points, "", 0) }]
+        vec![Curve::plain(joined(history.column("increment"), history.column(name))).drawn(stroke)]
     };
     let axes = |name: &str| [Label::plain("increment"), Label::plain(name)];
     let tolerance = view.results.record.tolerance;
@@ -37,14 +35,8 @@ pub fn convergence(view: &Overview<'_>) -> Markup {
         ("time in increments".to_owned(), html! { (duration(sum("wall_s"))) }),
     ];
     let figures = [
-        figure_of(
-            &residual.in_page(),
-            "How well every increment satisfies its equations, relative and dimensionless.",
-        ),
-        figure_of(
-            &work.in_page(),
-            "Applications of the elastic operator: the work, independent of the machine.",
-        ),
+        residual.figure("How well every increment satisfies its equations, relative and dimensionless."),
+        work.figure("Applications of the elastic operator: the work, independent of the machine."),
     ];
     chapter("Convergence", &html! { (side_by_side(&figures)) (pairs(&rows)) })
 }

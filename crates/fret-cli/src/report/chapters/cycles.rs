@@ -5,7 +5,8 @@ use maud::{Markup, html};
 
 use crate::drawing::chart::{Chart, Curve};
 use crate::drawing::scale::Label;
-use crate::report::html::{chapter, figure_of, side_by_side};
+use crate::report::Measured;
+use crate::report::html::{chapter, side_by_side};
 use crate::report::overview::Overview;
 
 /// With fewer cycles there is nothing to see over their number.
@@ -24,58 +25,44 @@ pub fn cycles(view: &Overview<'_>) -> Markup {
         numbers.iter().zip(cycles).map(|(number, cycle)| [*number, value(cycle)]).collect()
     };
     let chart = |name: &str, kind: &str, value: &dyn Fn(&CycleRecord) -> f64| {
-        let label = if kind.is_empty() { Label::plain(name) } else { view.label(name, kind) };
-        let curve = Curve { name: None, ..Curve::line(points(value), "", 0) };
-        Chart::new(&format!("{name} over the cycles"), [Label::plain("cycle"), label], vec![curve])
+        let axes = [Label::plain("cycle"), view.label(name, kind)];
+        Chart::new(&format!("{name} over the cycles"), axes, vec![Curve::plain(points(value))])
     };
-    let twists = view.twists;
-    let (force, motion) = if twists {
-        ("moment amplitude", "rotation amplitude")
+    let energy = chart("dissipated energy", "force x length", &|cycle| cycle.dissipated_energy);
+    let mut figures = vec![energy.figure("Dissipated energy of each computed cycle.")];
+    let amplitudes = if view.twists {
+        [("moment amplitude", "force x length"), ("rotation amplitude", "rad")]
     } else {
-        ("force amplitude Q*", "displacement amplitude δ*")
+        [("force amplitude Q*", "force"), ("displacement amplitude δ*", "length")]
     };
-    let [of_force, of_motion] = if twists { ["force x length", "rad"] } else { ["force", "length"] };
-    let mut figures = vec![figure_of(
-        &chart("dissipated energy", "force x length", &|cycle| cycle.dissipated_energy).in_page(),
-        "Dissipated energy of each computed cycle.",
-    )];
-    for (name, kind, value) in [
-        (force, of_force, (|cycle| cycle.force_amplitude) as fn(&CycleRecord) -> f64),
-        (motion, of_motion, |cycle| cycle.displacement_amplitude),
-    ] {
+    let reads: [fn(&CycleRecord) -> f64; 2] =
+        [|cycle| cycle.force_amplitude, |cycle| cycle.displacement_amplitude];
+    for ((name, kind), value) in amplitudes.into_iter().zip(reads) {
         let values: Vec<f64> = cycles.iter().map(value).collect();
         let [low, high] = values
             .iter()
             .fold([f64::INFINITY, 0.0_f64], |[low, high], value| [low.min(*value), high.max(*value)]);
         if high - low > SEEN * high {
-            figures.push(figure_of(&chart(name, kind, &value).in_page(), &format!("{name} of each cycle.")));
+            figures.push(chart(name, kind, &value).figure(&format!("{name} of each cycle.")));
         }
     }
     let ratio = chart("energy ratio A", "", &|cycle| cycle.energy_ratio.unwrap_or(f64::NAN));
-    figures.push(figure_of(
-        &ratio.in_page(),
-        "Energy ratio A = W_d / (4 Q* δ*); 0.2 is the transition to gross slip of a sphere.",
-    ));
+    figures.push(
+        ratio.figure("Energy ratio A = W_d / (4 Q* δ*); 0.2 is the transition to gross slip of a sphere."),
+    );
     let change = Chart { logarithmic: true, ..chart("cycle-to-cycle change", "", &|cycle| cycle.closure) };
-    figures.push(figure_of(
-        &change.in_page(),
-        "Change of tractions and motions from the start of a cycle to its end, relative.",
-    ));
+    let caption = "Change of tractions and motions from the start of a cycle to its end, relative.";
+    figures.push(change.figure(caption));
     if view.results.case().friction_evolution.is_some() {
-        figures.push(figure_of(
-            &chart("friction coefficient", "", &|cycle| cycle.friction_coefficient).in_page(),
-            "Mean friction coefficient over the contact, weighted with the pressure.",
-        ));
+        let friction = chart("friction coefficient", "", &|cycle| cycle.friction_coefficient);
+        let caption = "Mean friction coefficient over the contact, weighted with the pressure.";
+        figures.push(friction.figure(caption));
     }
     if view.results.case().wear.is_some() {
-        figures.push(figure_of(
-            &chart("wear volume", "length^3", &|cycle| cycle.worn_volume).in_page(),
-            "Wear volume since the start.",
-        ));
-        figures.push(figure_of(
-            &chart("max wear depth", "length", &|cycle| cycle.max_worn_depth).in_page(),
-            "Maximum wear depth.",
-        ));
+        let volume = chart("wear volume", "length^3", &|cycle| cycle.worn_volume);
+        let depth = chart("max wear depth", "length", &|cycle| cycle.max_worn_depth);
+        figures.push(volume.figure("Wear volume since the start."));
+        figures.push(depth.figure("Maximum wear depth."));
     }
     chapter("From cycle to cycle", &side_by_side(&figures))
 }

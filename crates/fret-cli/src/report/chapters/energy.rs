@@ -3,9 +3,10 @@
 use fret_core::study::{PartialSlip, TangentialForm};
 use maud::{Markup, html};
 
-use crate::drawing::chart::{Chart, Curve};
+use crate::drawing::chart::{Chart, Curve, joined};
 use crate::drawing::scale::Label;
-use crate::report::html::{chapter, deviation, figure_of, side_by_side, table};
+use crate::report::Measured;
+use crate::report::html::{chapter, deviation, side_by_side, table};
 use crate::report::overview::Overview;
 
 /// Cycles listed one by one.
@@ -18,9 +19,7 @@ pub fn energy(view: &Overview<'_>) -> Markup {
     if (view.direction.is_none() && !view.twists) || energy.last().is_none_or(|energy| *energy == 0.0) {
         return html! {};
     }
-    let points = |values: &[f64]| -> Vec<[f64; 2]> {
-        history.column("increment").iter().zip(values).map(|(x, y)| [*x, *y]).collect()
-    };
+    let points = |values: &[f64]| joined(history.column("increment"), values);
     let mut curves = vec![Curve::line(points(energy), "computed", 0)];
     let mut caption = "Dissipated energy since the start.".to_owned();
     if view.results.cycles.iter().any(|cycle| cycle.stands_for > 1) {
@@ -33,7 +32,7 @@ pub fn energy(view: &Overview<'_>) -> Markup {
     }
     let axes = [Label::plain("increment"), view.label("dissipated energy", "force x length")];
     let chart = Chart::new("dissipated energy over the increments", axes, curves);
-    let mut parts = vec![figure_of(&chart.in_page(), &caption)];
+    let mut parts = vec![chart.figure(&caption)];
     parts.extend(account(view).map(|account| html! { div { (account) } }));
     chapter("Dissipated energy", &side_by_side(&parts))
 }

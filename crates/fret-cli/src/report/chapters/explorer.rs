@@ -9,12 +9,14 @@ use super::loading::loop_curves;
 use super::moment::{Ground, Moment, largest};
 use super::sections::seen;
 use super::zones::legend;
-use crate::drawing::chart::{Chart, Curve, Stroke};
+use crate::drawing::chart::{Chart, Curve, Stroke, joined};
+use crate::drawing::figure_of;
 use crate::drawing::frame::Frame;
 use crate::drawing::map::Map;
 use crate::drawing::scale::Label;
 use crate::failure::Failure;
-use crate::report::html::{chapter, figure_of, percent};
+use crate::report::Measured;
+use crate::report::html::{chapter, percent};
 use crate::report::overview::Overview;
 
 /// Increments that the slider shows, at most, and at least where there are so many.
@@ -24,8 +26,6 @@ const FEWEST: usize = 12;
 const ROOM: usize = 2_500_000;
 /// Fraction of the largest value of a load below which there is none.
 const ROUNDING: f64 = 1e-12;
-/// Width of a map.
-const WIDTH: f64 = 400.0;
 
 /// The chapter.
 pub fn explorer(view: &Overview<'_>) -> Result<Markup, Failure> {
@@ -71,8 +71,8 @@ impl Ground<'_> {
         let frames: Vec<Frame> = sections.iter().map(|(chart, _)| chart.frame()).collect();
         let changes: Vec<Value> =
             moments.iter().map(|moment| self.changes(moment, &loop_frame, &frames)).collect();
-        let mut figures = vec![figure_of(&path.in_page(), "The increment on the path of the load.")];
-        figures.extend(sections.iter().map(|(chart, caption)| figure_of(&chart.in_page(), caption)));
+        let mut figures = vec![path.figure("The increment on the path of the load.")];
+        figures.extend(sections.iter().map(|(chart, caption)| chart.figure(caption)));
         figures.extend(self.maps(now)?);
         let body = html! {
             @if moments.len() > 1 {
@@ -105,7 +105,7 @@ impl Ground<'_> {
 
     fn loop_chart(&self, now: &Moment) -> Chart {
         let points = self.view.loop_points();
-        let labels = self.view.loop_labels();
+        let labels = self.view.labels_of_loop();
         let what = format!("{} over {}", labels[1].name, labels[0].name);
         let here = points.get(now.increment).copied().unwrap_or([f64::NAN; 2]);
         let curves = loop_curves(self.view).into_iter().map(|curve| Curve { name: None, ..curve }).collect();
@@ -121,7 +121,7 @@ impl Ground<'_> {
     }
 
     fn points(&self, values: &[f64]) -> Vec<[f64; 2]> {
-        self.section.along.iter().zip(values).map(|(s, value)| [*s, *value]).collect()
+        joined(&self.section.along, values)
     }
 
     /// Charts of the section with their captions: pressure, and shear with its bound.
@@ -156,17 +156,9 @@ impl Ground<'_> {
             let mut curves = Vec::new();
             if let Some(bound) = &now.bound {
                 let below: Vec<f64> = bound.iter().map(|bound| -bound).collect();
-                curves.push(Curve {
-                    stroke: Stroke::Dashed,
-                    colour: 1,
-                    ..curve(bound, "bound-above", "± the friction bound")
-                });
-                curves.push(Curve {
-                    stroke: Stroke::Dashed,
-                    colour: 1,
-                    name: None,
-                    ..curve(&below, "bound-below", "")
-                });
+                let dashed = |curve: Curve| Curve { colour: 1, ..curve }.drawn(Stroke::Dashed);
+                curves.push(dashed(curve(bound, "bound-above", "± the friction bound")));
+                curves.push(Curve { name: None, ..dashed(curve(&below, "bound-below", "")) });
             }
             curves.push(curve(&now.shear, "shear-line", self.shear_name));
             let axes = [label(), self.view.label("shear", "pressure")];
@@ -184,24 +176,17 @@ impl Ground<'_> {
 
     fn maps(&self, now: &Moment) -> Result<Vec<Markup>, Failure> {
         let fields = &self.view.results.fields;
-        let [x, y] = self.window.edges(fields);
         // A line contact is the same all along y, and its sections tell all.
         let dimension = self.view.dimension();
-        let y_label = match dimension {
-            Dimension::Plane => self.view.label("y", "length"),
-            Dimension::Line => Label::plain(""),
+        let length = |name: &str| match dimension {
+            Dimension::Line if name == "y" => Label::plain(""),
+            _ => self.view.label(name, "length"),
         };
+        let edges = self.window.part().edges_in(fields);
         let map_of = |place: usize, what: &str, bar: Option<&str>, most: f64| Map {
-            what: what.to_owned(),
-            width: WIDTH,
-            axes: [self.view.label("x", "length"), y_label.clone()],
-            x,
-            y,
-            downward: false,
-            image: now.images[place].clone(),
             id: Some(["map-0", "map-1", "map-2"][place]),
             bar: bar.map(|name| (self.view.label(name, "pressure"), [0.0, most])),
-            levels: Vec::new(),
+            ..Map::of_surface(what, length, edges, now.images[place].clone())
         };
         let mut figures = Vec::new();
         let mut place = 0;

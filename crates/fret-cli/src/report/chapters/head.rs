@@ -5,7 +5,8 @@ use fret_core::model::Dimension;
 use fret_core::study::pressure_is_unbounded;
 use maud::{Markup, html};
 
-use crate::figures::{counted, duration};
+use crate::figures::{capitalised, counted, duration};
+use crate::report::Measured;
 use crate::report::html::{percent, short};
 use crate::report::overview::Overview;
 
@@ -51,12 +52,6 @@ fn how_it_ended(view: &Overview<'_>) -> String {
     }
     line.extend(record.started_unix_s.map(|seconds| format!("started {}", date(seconds))));
     line.join(" · ")
-}
-
-/// A sentence that begins with a capital letter.
-fn capitalised(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
 fn cards(view: &Overview<'_>) -> Vec<(&'static str, String)> {

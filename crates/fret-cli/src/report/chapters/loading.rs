@@ -4,17 +4,14 @@ use fret_core::model::Control;
 use fret_core::study::{PartialSlip, TangentialForm};
 use maud::{Markup, html};
 
-use crate::drawing::chart::{Chart, Curve, Stroke};
+use crate::drawing::chart::{Chart, Curve, Stroke, joined};
 use crate::drawing::scale::Label;
-use crate::report::html::{chapter, figure_of, side_by_side};
+use crate::report::Measured;
+use crate::report::html::{chapter, side_by_side};
 use crate::report::overview::{Cycle, Overview};
 
 /// Earlier cycles that are drawn behind the last one.
 const MOST_BEHIND: usize = 8;
-
-fn joined(x: &[f64], y: &[f64]) -> Vec<[f64; 2]> {
-    x.iter().zip(y).map(|(x, y)| [*x, *y]).collect()
-}
 
 /// Normal force over approach or mean gap, and the loads over the increments.
 pub fn loading(view: &Overview<'_>) -> Markup {
@@ -33,10 +30,8 @@ pub fn loading(view: &Overview<'_>) -> Markup {
         caption += &format!(" Dashed: {name}, without friction.");
     }
     let axes = [view.label(closeness, "length"), view.label("normal force", "force")];
-    let mut figures = vec![figure_of(
-        &Chart::new(&format!("normal force over {closeness}"), axes, curves).in_page(),
-        &caption,
-    )];
+    let mut figures =
+        vec![Chart::new(&format!("normal force over {closeness}"), axes, curves).figure(&caption)];
     if table.rows() > 1 {
         let ([from, to], called) = view.shown_increments();
         let over_number = |values: &[f64]| joined(&table.column("increment")[from..to], &values[from..to]);
@@ -46,10 +41,7 @@ pub fn loading(view: &Overview<'_>) -> Markup {
         }
         let axes = [Label::plain("increment"), view.label("force", "force")];
         let chart = Chart::new("forces over the increments", axes, loads);
-        figures.push(figure_of(
-            &chart.in_page(),
-            &format!("Forces through the history, prescribed or found.{called}"),
-        ));
+        figures.push(chart.figure(&format!("Forces through the history, prescribed or found.{called}")));
     }
     if view.twists {
         let axes = [Label::plain("increment"), view.label("torsional moment", "force x length")];
@@ -58,10 +50,10 @@ pub fn loading(view: &Overview<'_>) -> Markup {
             "torsional moment",
             0,
         )];
-        figures.push(figure_of(
-            &Chart::new("moment over the increments", axes, moment).in_page(),
-            "Torsional moment through the history.",
-        ));
+        figures.push(
+            Chart::new("moment over the increments", axes, moment)
+                .figure("Torsional moment through the history."),
+        );
     }
     chapter("Loading", &side_by_side(&figures))
 }
@@ -71,7 +63,7 @@ pub fn fretting_loop(view: &Overview<'_>) -> Markup {
     if view.direction.is_none() && !view.twists {
         return html! {};
     }
-    let axes = view.loop_labels();
+    let axes = view.labels_of_loop();
     let what = format!("{} over {}", axes[1].name, axes[0].name);
     let mut caption = if view.twists {
         "Moment over rotation.".to_owned()
@@ -93,7 +85,7 @@ pub fn fretting_loop(view: &Overview<'_>) -> Markup {
             " Dashed: the closed form for the same forces (Cattaneo), relative to the datum."
         };
     }
-    let figures = [figure_of(&Chart::new(&what, axes, curves).in_page(), &caption), stick_fraction(view)];
+    let figures = [Chart::new(&what, axes, curves).figure(&caption), stick_fraction(view)];
     chapter("Fretting loop", &side_by_side(&figures))
 }
 
@@ -141,8 +133,5 @@ fn stick_fraction(view: &Overview<'_>) -> Markup {
             " Dashed: the closed form. The computed area counts whole cells, and slip within an increment.";
     }
     let axes = [Label::plain("increment"), Label::plain("stick fraction")];
-    figure_of(
-        &Chart::new("stick fraction of the contact over the increments", axes, curves).in_page(),
-        &caption,
-    )
+    Chart::new("stick fraction of the contact over the increments", axes, curves).figure(&caption)
 }

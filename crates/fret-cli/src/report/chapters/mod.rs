@@ -16,7 +16,7 @@ mod wear;
 mod zones;
 
 pub use explorer::json_in_page;
-pub use zones::{cell as cell_of_pixel, legend as legend_of_zones};
+pub use zones::legend as legend_of_zones;
 
 use maud::{Markup, html};
 

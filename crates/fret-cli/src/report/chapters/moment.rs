@@ -1,9 +1,7 @@
 //! What is shown of one kept increment: values along a section, and images of maps; and what all of them share.
 
-use crate::drawing::raster::{Raster, pixels_for};
 use crate::failure::Failure;
 use crate::report::chapters::sections::shear_direction;
-use crate::report::chapters::zones::{cell, image};
 use crate::report::overview::Overview;
 use crate::report::window::{Section, Window};
 use fret_results::Field;
@@ -84,7 +82,8 @@ impl<'a> Ground<'a> {
         let pressure = self.section.values(&field);
         let mut images = Vec::new();
         if self.has_zones {
-            images.push(image(&fields.field("zone", position)?, &self.window)?);
+            let zone = fields.field("zone", position)?;
+            images.push(self.window.part().zones(|[i, j]| zone.at(i, j))?);
         }
         images.push(self.image(&field, &field, self.most[0])?);
         let mut shear = Vec::new();
@@ -104,12 +103,7 @@ impl<'a> Ground<'a> {
 
     /// A field in false colours where there is contact.
     fn image(&self, field: &Field, pressure: &Field, most: f64) -> Result<String, Failure> {
-        let (first, cells) = self.window.cells();
-        let size = cells.map(pixels_for);
-        let value = |column: usize, row: usize| {
-            let [i, j] = cell(first, cells, size, [column, row]);
-            if pressure.at(i, j) > 0.0 { field.at(i, j) } else { f64::NAN }
-        };
-        Raster::of_values(size, [0.0, most], value).address()
+        let value = |[i, j]: [usize; 2]| if pressure.at(i, j) > 0.0 { field.at(i, j) } else { f64::NAN };
+        self.window.part().values([0.0, most], value)
     }
 }

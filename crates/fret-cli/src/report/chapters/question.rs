@@ -10,7 +10,8 @@ use maud::{Markup, html};
 use serde_json::{Value, json};
 
 use crate::figures::counted;
-use crate::report::html::{chapter, given, number, pairs};
+use crate::report::Measured;
+use crate::report::html::{chapter, given, pairs};
 use crate::report::overview::Overview;
 
 /// Coatings that are listed one by one.
@@ -143,7 +144,7 @@ fn described(view: &Overview<'_>, value: &Value) -> String {
 fn topography(view: &Overview<'_>, heights: &HeightsSummary) -> String {
     let source = &heights.source;
     let of = if source.is_empty() { String::new() } else { format!(" of {source}") };
-    let [rms, valley] = [heights.rms, heights.valley].map(|height| view.with_unit(&number(height), "length"));
+    let [rms, valley] = [heights.rms, heights.valley].map(|height| view.number(height, "length"));
     format!("topography{of}: rms {rms} about the mean, {valley} from the highest point to the lowest")
 }
 
@@ -225,7 +226,7 @@ fn evolution(view: &Overview<'_>) -> Option<String> {
         EvolutionDriver::SlipDistance => ("slip distance", "length"),
         EvolutionDriver::Cycles => ("cycles", ""),
     };
-    let driver = |value: f64| if kind.is_empty() { given(value) } else { view.given(value, kind) };
+    let driver = |value: f64| view.given(value, kind);
     let law = match &evolution.law {
         EvolutionLaw::Exponential { last, scale } => {
             format!("tends to {} over a scale of {}", given(*last), driver(*scale))

@@ -5,7 +5,8 @@ use maud::{Markup, html};
 
 use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::failure::Failure;
-use crate::report::html::{chapter, figure_of, side_by_side};
+use crate::report::Measured;
+use crate::report::html::{chapter, side_by_side};
 use crate::report::overview::Overview;
 use crate::report::window::Section;
 
@@ -116,7 +117,7 @@ fn section_curves(
         }
         let stroke = if exact.is_some() { Stroke::Dots } else { Stroke::Line };
         let points = (first..=last).map(|k| [section.along[k], values[k]]).collect();
-        curves.push(Curve { stroke, ..Curve::line(points, &view.called(step), colour) });
+        curves.push(Curve::line(points, &view.called(step), colour).drawn(stroke));
     }
     curves
 }
@@ -149,7 +150,7 @@ fn pressure_section(view: &Overview<'_>, section: &Section) -> Result<Markup, Fa
         "Pressure after these increments (stage, number in it). No closed form is known for this case."
             .to_owned()
     };
-    Ok(figure_of(&chart.in_page(), &caption))
+    Ok(chart.figure(&caption))
 }
 
 fn shear_section(view: &Overview<'_>, section: &Section) -> Result<Markup, Failure> {
@@ -181,7 +182,7 @@ fn shear_section(view: &Overview<'_>, section: &Section) -> Result<Markup, Failu
     if view.grows_with_friction() {
         caption += " Every increment in which the contact grows leaves a ring: more increments smooth it.";
     }
-    Ok(figure_of(&chart.in_page(), &caption))
+    Ok(chart.figure(&caption))
 }
 
 /// Kept increments of the last cycle, or of the whole history where there is none: the strongest push to either side first,

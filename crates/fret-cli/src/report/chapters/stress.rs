@@ -7,11 +7,15 @@ use base64::prelude::{BASE64_STANDARD, Engine};
 use maud::{Markup, html};
 
 use crate::commands::stress_kinds::{kind_of_stress, stress_called};
-use crate::commands::stress_record::{Bounded, CrackRecord, StressRecord, UNLIMITED};
+use crate::commands::stress_record::{CrackRecord, LargestRecord, ParameterRecord, StressRecord};
 use crate::drawing::chart::{Chart, Curve};
-use crate::figures::figure;
-use crate::report::html::{chapter, figure_of, side_by_side, table};
+use crate::drawing::figure_of;
+use crate::figures::{bounded, capitalised, figure};
+use crate::report::Measured;
+use crate::report::html::{chapter, grid, side_by_side};
 use crate::report::overview::Overview;
+use crate::report::read_answer;
+use crate::table::{Cell, Columns};
 
 /// Pictures that are shown, at most.
 const MOST_PICTURES: usize = 6;
@@ -19,55 +23,31 @@ const MOST_PICTURES: usize = 6;
 /// The chapter; nothing where there is no `stress.json`, or an unreadable one.
 pub fn stress(view: &Overview<'_>) -> Markup {
     let folder = view.results.path.join("stress");
-    let Some(record) = fs::read(folder.join("stress.json"))
-        .ok()
-        .and_then(|text| serde_json::from_slice::<StressRecord>(&text).ok())
-    else {
-        return html! {};
-    };
-    let length = |value: f64| view.number(value, "length");
-    let largest: Vec<Vec<String>> = record
-        .largest
-        .iter()
-        .map(|found| {
-            vec![
-                stress_called(&found.measure),
-                view.number(found.value, kind_of_stress(&found.measure)),
-                found.increment.to_string(),
-                length(found.x),
-                length(found.y),
-                length(found.depth),
-                found.layer.clone(),
-            ]
+    let Ok(record) = read_answer::<StressRecord>(&folder.join("stress.json"), "") else { return html! {} };
+    let parameters: Vec<_> = record.fatigue.iter().flat_map(|fatigue| &fatigue.parameters).collect();
+    let columns = Columns::<(&String, &ParameterRecord)>::new()
+        .column("", "", |(name, _)| stress_called(name))
+        .column("maximum", "", |(name, found)| Cell::Of(found.largest, kind_of_stress(name)))
+        .column("x", "length", |(_, found)| found.x)
+        .column("depth", "length", |(_, found)| found.depth)
+        .column("by the line method", "", |(name, found)| match &found.critical_distance {
+            Some(at) => Cell::Of(at.line.value, kind_of_stress(name)),
+            None => "–".into(),
         })
-        .collect();
-    let fatigue: Vec<Vec<String>> = record
-        .fatigue
-        .iter()
-        .flat_map(|fatigue| &fatigue.parameters)
-        .map(|(name, found)| {
-            let line = found.critical_distance.as_ref().map(|at| at.line.value);
-            vec![
-                stress_called(name),
-                view.number(found.largest, kind_of_stress(name)),
-                length(found.x),
-                length(found.depth),
-                line.map_or("–".to_owned(), |value| view.number(value, kind_of_stress(name))),
-                bounded(found.cycles),
-                bounded(found.factor_of_safety),
-            ]
-        })
-        .collect();
+        .column("cycles to initiation", "", |(_, found)| found.cycles.map(|cycles| bounded(cycles.0)))
+        .column("factor of safety", "", |(_, found)| found.factor_of_safety.map(|factor| bounded(factor.0)));
+    let number = |value: f64, kind: &str| view.number(value, kind);
     let mut figures: Vec<Markup> = over_depth(view, &folder, &record).into_iter().collect();
     for (name, address) in pictures(&folder, &record) {
         figures.push(figure_of(&html! { img class="picture" alt=(name) src=(address); }, &name));
     }
     let body = html! {
         p { "In the " (record.body) " body, from the kept tractions. Maxima over all increments and depths:" }
-        (table(&["", "maximum", "increment", "x", "y", "depth", "in"], &largest))
-        @if !fatigue.is_empty() {
+        (grid(&LargestRecord::columns(stress_called), &record.largest, number))
+        @if let Some(why) = &record.stage_ends_alone { p class="small" { (capitalised(why)) "." } }
+        @if !parameters.is_empty() {
             p class="after" { "Fatigue parameters over the last cycle, under all cells:" }
-            (table(&["", "maximum", "x", "depth", "by the line method", "cycles to initiation", "factor of safety"], &fatigue))
+            (grid(&columns, parameters, number))
         }
         @if let Some(sentence) = crack_of(&record) {
             p { (sentence) }
@@ -75,16 +55,6 @@ pub fn stress(view: &Overview<'_>) -> Markup {
         (side_by_side(&figures))
     };
     chapter("Stress below the surface", &body)
-}
-
-/// A number without a unit, or the word in its place; nothing where there is none.
-fn bounded(value: Option<Bounded>) -> String {
-    value.map_or_else(
-        String::new,
-        |Bounded(value)| {
-            if value.is_finite() { figure(value) } else { UNLIMITED.to_owned() }
-        },
-    )
 }
 
 /// What becomes of the short crack, in a sentence.
@@ -129,7 +99,7 @@ fn over_depth(view: &Overview<'_>, folder: &Path, record: &StressRecord) -> Opti
     ];
     let axes = [view.label("depth", "length"), view.label("stress", "pressure")];
     let chart = Chart::new("maximum stress over the depth", axes, curves);
-    Some(figure_of(&chart.in_page(), &format!("Largest values at each depth in increment {worst}.")))
+    Some(chart.figure(&format!("Largest values at each depth in increment {worst}.")))
 }
 
 /// The increment of the largest von Mises stress.

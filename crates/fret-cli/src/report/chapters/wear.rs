@@ -3,12 +3,12 @@
 use maud::{Markup, html};
 
 use crate::drawing::chart::{Chart, Curve};
+use crate::drawing::figure_of;
 use crate::drawing::map::Map;
-use crate::drawing::raster::{Raster, pixels_for};
 use crate::failure::Failure;
+use crate::report::Measured;
 use crate::report::chapters::sections::seen;
-use crate::report::chapters::zones::cell;
-use crate::report::html::{chapter, figure_of, side_by_side};
+use crate::report::html::{chapter, side_by_side};
 use crate::report::overview::Overview;
 use crate::report::window::{Section, Window};
 
@@ -31,24 +31,12 @@ pub fn wear(view: &Overview<'_>) -> Result<Markup, Failure> {
     let most = scar.values.iter().copied().fold(0.0, f64::max);
     let mut window = Window::new(fields.cells());
     window.widen(&scar);
-    let (first, cells) = window.cells();
-    let size = cells.map(pixels_for);
-    let value = |column: usize, row: usize| {
-        let [i, j] = cell(first, cells, size, [column, row]);
-        if scar.at(i, j) > 0.0 { scar.at(i, j) } else { f64::NAN }
-    };
-    let [x, y] = window.edges(fields);
+    let part = window.part();
+    let value = |[i, j]: [usize; 2]| if scar.at(i, j) > 0.0 { scar.at(i, j) } else { f64::NAN };
+    let image = part.values([0.0, most], value)?;
     let map = Map {
-        what: "wear depth".to_owned(),
-        width: 400.0,
-        axes: [view.label("x", "length"), view.label("y", "length")],
-        x,
-        y,
-        downward: false,
-        image: Raster::of_values(size, [0.0, most], value).address()?,
-        id: None,
         bar: Some((view.label("wear depth", "length"), [0.0, most])),
-        levels: Vec::new(),
+        ..Map::of_surface("wear depth", |name| view.label(name, "length"), part.edges_in(fields), image)
     };
     let section = Section::of(view);
     let mut profiles = Vec::new();
@@ -68,10 +56,8 @@ pub fn wear(view: &Overview<'_>) -> Result<Markup, Failure> {
     let axes = [view.label(section.name(), "length"), view.label("wear depth", "length")];
     let debris = debris(view, &section, last, [low, high])?;
     let figures = [
-        figure_of(
-            &Chart::new("wear depth along a line through the contact", axes, curves).in_page(),
-            "Wear depth of both bodies together, along a line through the middle.",
-        ),
+        Chart::new("wear depth along a line through the contact", axes, curves)
+            .figure("Wear depth of both bodies together, along a line through the middle."),
         figure_of(&map.drawing()?.in_page(), "Wear depth at the end."),
     ];
     let figures: Vec<Markup> = figures.into_iter().chain(debris).collect();
@@ -100,10 +86,7 @@ fn debris(
         curve(&|k| worn[k] - debris[k], "open", 2),
     ];
     let axes = [view.label(section.name(), "length"), view.label("depth", "length")];
-    Ok(Some(figure_of(
-        &Chart::new("debris in the scar along a line through the contact", axes, curves).in_page(),
-        "At the end: wear depth of both bodies together, thickness of the debris, and what is open between them.",
-    )))
+    Ok(Some(Chart::new("debris in the scar along a line through the contact", axes, curves).figure("At the end: wear depth of both bodies together, thickness of the debris, and what is open between them.")))
 }
 
 /// Kept increments with a scar that can be told from the others, evenly over the run.

@@ -4,7 +4,8 @@ use maud::{Markup, html};
 
 use super::view::{View, spoken};
 use crate::drawing::chart::{Chart, Curve, Stroke};
-use crate::report::html::{chapter, figure_of, side_by_side};
+use crate::figures::capitalised;
+use crate::report::html::{chapter, side_by_side};
 use crate::sweep::columns::SummaryColumn;
 
 /// Numbers that are drawn where they vary, the most asked first.
@@ -81,21 +82,15 @@ fn drawn(view: &View, column: &SummaryColumn, across: usize, others: &[usize]) -
     for (place, (name, mut points)) in groups.into_iter().enumerate() {
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let name = Some(name).filter(|name| !name.is_empty());
-        let dots = Curve {
-            points: points.clone(),
-            name: None,
-            colour: place % COLOURS,
-            stroke: Stroke::Dots,
-            id: None,
-        };
-        curves.push(Curve { name, stroke: Stroke::Line, ..dots.clone() });
-        curves.push(dots);
+        let line = Curve { colour: place % COLOURS, ..Curve::plain(points) };
+        curves.push(Curve { name, ..line.clone() });
+        curves.push(line.drawn(Stroke::Dots));
     }
     let finite = || numbers.iter().copied().filter(|value| value.is_finite());
     let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(0.0, f64::max));
     let chart = Chart {
         logarithmic: low > 0.0 && high > 30.0 * low,
-        ..Chart::new(&spoken(&column.name), [view.key_label(across), view.label(column)], curves)
+        ..Chart::new(&spoken(&column.name), [view.key_label(across), view.label_of(column)], curves)
     };
     let mut caption = capitalised(&spoken(&column.name));
     let unlimited = numbers.iter().filter(|value| value.is_infinite()).count();
@@ -105,10 +100,5 @@ fn drawn(view: &View, column: &SummaryColumn, across: usize, others: &[usize]) -
     if all > MOST_CURVES {
         caption += &format!("; {MOST_CURVES} of {all} curves");
     }
-    figure_of(&chart.in_page(), &(caption + "."))
-}
-
-fn capitalised(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+    chart.figure(&(caption + "."))
 }

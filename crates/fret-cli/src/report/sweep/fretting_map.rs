@@ -5,9 +5,9 @@ use maud::{Markup, html};
 use super::points::MOST_LOOPS;
 use super::view::View;
 use crate::drawing::Drawing;
+use crate::drawing::figure_of;
 use crate::drawing::frame::{Frame, room_for};
 use crate::drawing::scale::Axis;
-use crate::report::html::figure_of;
 
 const WIDTH: f64 = 480.0;
 const HEIGHT: f64 = 340.0;

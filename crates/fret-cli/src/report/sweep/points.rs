@@ -4,8 +4,8 @@ use maud::{Markup, html};
 
 use super::view::{View, called, spoken};
 use crate::drawing::chart::{Chart, Curve};
-use crate::drawing::scale::Label;
-use crate::report::html::{chapter, figure_of, pairs};
+use crate::report::Measured;
+use crate::report::html::{chapter, pairs};
 use crate::sweep::Path;
 
 /// Points that stand in the page each with its loop, at the most: links lead to these.
@@ -47,7 +47,7 @@ fn one(view: &View, point: usize) -> Markup {
         .columns
         .iter()
         .filter(|column| !column.values[point].is_null())
-        .map(|column| (spoken(&column.name), html! { (view.number(column, point)) }))
+        .map(|column| (spoken(&column.name), html! { (view.told(column, point)) }))
         .collect();
     html! {
         div class="point" id=(format!("point-{point}")) {
@@ -67,17 +67,11 @@ fn one(view: &View, point: usize) -> Markup {
 }
 
 fn loop_of(view: &View, path: &Path) -> Markup {
-    let label = |name: &str, kind: &str| Label { name: name.to_owned(), unit: view.unit(kind) };
-    let [x, y] = if path.twists {
-        [label("rotation", "rad"), label("torsional moment", "force x length")]
-    } else {
-        [label("relative displacement", "length"), label("tangential force", "force")]
-    };
     let moves = path.points.iter().any(|point| point != &path.points[0]);
     html! {
         @if moves {
-            @let curve = Curve { name: None, ..Curve::line(path.points.clone(), "", 0) };
-            (figure_of(&Chart::new("fretting loop of the point", [x, y], vec![curve]).in_page(), "The last cycle."))
+            @let curve = Curve::plain(path.points.clone());
+            (Chart::new("fretting loop of the point", view.loop_labels(path.twists), vec![curve]).figure("The last cycle."))
         }
     }
 }
@@ -111,7 +105,7 @@ pub fn table(view: &View) -> Markup {
                                 td { (view.value(key, value)) }
                             }
                             @if view.answers[point].as_ref().is_some_and(|answer| answer.numbers.is_some()) {
-                                @for column in &columns { td { (view.number(column, point)) } }
+                                @for column in &columns { td { (view.told(column, point)) } }
                             } @else {
                                 td colspan=(columns.len()) { (view.answers[point].as_ref().map_or("not solved yet", |answer| answer.status())) }
                             }

@@ -2,15 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use fret_core::uncertainty::{Distribution, Sensitivity, Statistics};
+use fret_core::uncertainty::{Distribution, Sensitivity};
 use maud::{Markup, html};
 use serde_json::{Value, json};
 
 use super::view::{View, called, spoken};
 use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::scale::Label;
-use crate::figures::figure;
-use crate::report::html::{chapter, figure_of, side_by_side, table};
+use crate::figures::{bounded, figure};
+use crate::report::Measured;
+use crate::report::html::{chapter, grid, side_by_side};
 use crate::sweep::{Quantities, QuantityRecord, SpreadRecord};
 
 /// Numbers that vary by less, relative, do not.
@@ -71,19 +72,15 @@ fn varying(quantities: &Quantities) -> impl Iterator<Item = (&String, &QuantityR
 }
 
 fn quantiles(view: &View, quantities: &Quantities) -> Markup {
-    let number = |value: f64| match value {
-        f64::INFINITY => "unlimited".to_owned(),
+    let number = |value: f64, _: &str| match value {
         value if value.is_nan() => "–".to_owned(),
-        value => figure(value).replace('-', "−"),
+        value => bounded(value).replace('-', "−"),
     };
-    let row = |(name, of): (&String, &QuantityRecord)| {
-        let unit = view.column(name).and_then(|column| view.unit(&column.kind)).unwrap_or_default();
-        let Statistics { mean, deviation, quantiles: [low, _, median, _, high], .. } = of.statistics;
-        let numbers = [mean, deviation, low, median, high].map(number);
-        [vec![spoken(name)], numbers.to_vec(), vec![unit]].concat()
-    };
-    let rows: Vec<_> = varying(quantities).map(row).collect();
-    table(&["quantity", "mean", "deviation", "2.5 %", "median", "97.5 %", "unit"], &rows)
+    let unit = |name: &str| view.column(name).and_then(|column| view.unit(&column.kind));
+    let columns = QuantityRecord::columns("quantity".to_owned(), spoken);
+    let columns = columns.column("unit", "", |(name, _)| unit(name));
+    let rows = varying(quantities).map(|(name, of)| (name.clone(), of.clone()));
+    grid(&columns, rows, number)
 }
 
 /// Bars of the first-order and total indices of every quantity.
@@ -149,11 +146,11 @@ fn frequencies(view: &View) -> Markup {
         let all = values.len() as f64;
         let points =
             values.iter().enumerate().map(|(place, value)| [*value, (place as f64 + 0.5) / all]).collect();
-        let curve = Curve { name: None, ..Curve::line(points, "", 0) };
-        let axes = [view.label(column), Label::plain("fraction of the samples below")];
+        let curve = Curve::plain(points);
+        let axes = [view.label_of(column), Label::plain("fraction of the samples below")];
         let chart =
             Chart { ranges: [None, Some([0.0, 1.0])], ..Chart::new(&spoken(name), axes, vec![curve]) };
-        Some(figure_of(&chart.in_page(), &format!("Cumulative frequency: {}.", spoken(name))))
+        Some(chart.figure(&format!("Cumulative frequency: {}.", spoken(name))))
     };
     let figures: Vec<Markup> = varying(quantities).filter_map(chart).take(MOST_CHARTS).collect();
     html! { div class="after" { (side_by_side(&figures)) } }
@@ -179,8 +176,8 @@ fn bands(view: &View, parts: &[(String, &Quantities)]) -> Markup {
         let low = Curve { name: None, ..curve(0, "", Stroke::Dashed) };
         let curves =
             vec![low, curve(4, "2.5 % and 97.5 %", Stroke::Dashed), curve(2, "median", Stroke::Line)];
-        let chart = Chart::new(&spoken(name), [view.key_label(axis), view.label(column)], curves);
-        Some(figure_of(&chart.in_page(), &format!("Scatter of {}.", spoken(name))))
+        let chart = Chart::new(&spoken(name), [view.key_label(axis), view.label_of(column)], curves);
+        Some(chart.figure(&format!("Scatter of {}.", spoken(name))))
     };
     let figures: Vec<Markup> = varying.filter_map(chart).take(MOST_CHARTS).collect();
     side_by_side(&figures)

@@ -3,19 +3,23 @@
 use std::fs;
 use std::path::Path;
 
-use serde::de::DeserializeOwned;
+use fret_core::model::Dimension;
+use fret_core::units::Units;
 use serde_json::Value;
 
 use crate::commands::stress_kinds::stress_called;
 use crate::drawing::scale::Label;
 use crate::failure::Failure;
-use crate::figures::unit_of;
 use crate::report::html::{given, number};
+use crate::report::{Measured, read_answer};
 use crate::sweep::columns::{SummaryColumn, columns};
 use crate::sweep::key::words_of;
 use crate::sweep::kinds::kind_of;
 use crate::sweep::record::PointOfSweep;
 use crate::sweep::{Answer, Kept, POINTS, RECORD, SpreadRecord, SweepRecord, UNCERTAINTY};
+
+/// What to do where a file of a sweep cannot be read.
+const AGAIN: &str = "run `fret sweep` again: finished points are not solved again";
 
 /// A sweep.
 pub struct View {
@@ -37,7 +41,7 @@ impl View {
     /// # Errors
     /// When a file that must be there cannot be read.
     pub fn read(folder: &Path) -> Result<Self, Failure> {
-        let record: SweepRecord = read(&folder.join(RECORD))?;
+        let record: SweepRecord = read_answer(&folder.join(RECORD), AGAIN)?;
         let fits = |point: &PointOfSweep| point.values.len() == record.keys.len();
         if record.drawn.len() > record.keys.len() || !record.points.iter().all(fits) {
             let what = format!("{}: not what a sweep writes", folder.join(RECORD).display());
@@ -49,8 +53,11 @@ impl View {
         };
         let answers: Vec<Option<Answer>> = record.points.iter().map(|point| answer(&point.file)).collect();
         let uncertainty = folder.join(UNCERTAINTY);
-        let uncertainty =
-            if uncertainty.exists() && !record.drawn.is_empty() { Some(read(&uncertainty)?) } else { None };
+        let uncertainty = if uncertainty.exists() && !record.drawn.is_empty() {
+            Some(read_answer(&uncertainty, AGAIN)?)
+        } else {
+            None
+        };
         let name = folder.file_name().map_or_else(String::new, |name| name.display().to_string());
         // What is nowhere anything but nothing, wear where nothing wears, is no column of a page; the files have it.
         let mut columns = columns(&answers);
@@ -120,13 +127,8 @@ impl View {
         self.unit(kind_of(key)?)
     }
 
-    /// The unit of a kind of quantity, where the cases declare units.
-    pub fn unit(&self, kind: &str) -> Option<String> {
-        unit_of(self.record.units.as_ref(), kind, self.record.dimension)
-    }
-
     /// The name of a column as an axis.
-    pub fn label(&self, column: &SummaryColumn) -> Label {
+    pub fn label_of(&self, column: &SummaryColumn) -> Label {
         // that it is of the last cycle says the caption
         Label { name: spoken(&column.name).replace(OF_CYCLE, ""), unit: self.unit(&column.kind) }
     }
@@ -139,15 +141,12 @@ impl View {
     }
 
     /// A value of a column in words.
-    pub fn number(&self, column: &SummaryColumn, point: usize) -> String {
+    pub fn told(&self, column: &SummaryColumn, point: usize) -> String {
         match &column.values[point] {
             Value::Null => "–".to_owned(),
             Value::String(word) if word == "inf" => "unlimited".to_owned(),
             Value::String(word) => word.replace('_', " "),
-            other => {
-                let words = other.as_f64().map_or_else(|| plain(other), number);
-                self.unit(&column.kind).map_or_else(|| words.clone(), |unit| format!("{words}\u{a0}{unit}"))
-            }
+            other => self.with_unit(other.as_f64().map_or_else(|| plain(other), number), &column.kind),
         }
     }
 
@@ -164,6 +163,16 @@ impl View {
     pub fn condition(&self, point: usize) -> &str {
         let word = |name: &str| self.column(name).and_then(|column| column.values[point].as_str());
         word("cycle_regime").filter(|word| !word.is_empty()).or_else(|| word("regime")).unwrap_or("unsolved")
+    }
+}
+
+impl Measured for View {
+    fn units(&self) -> Option<&Units> {
+        self.record.units.as_ref()
+    }
+
+    fn dimension(&self) -> Dimension {
+        self.record.dimension
     }
 }
 
@@ -226,15 +235,6 @@ pub fn spoken(name: &str) -> String {
         Some(rest) => rest.replace('_', " ") + OF_CYCLE,
         None => name.replace('_', " "),
     }
-}
-
-fn read<T: DeserializeOwned>(path: &Path) -> Result<T, Failure> {
-    let refuse = |why: String| {
-        let help = "run `fret sweep` again: finished points are not solved again".to_owned();
-        Failure::Call(format!("{}: {why}", path.display()), help)
-    };
-    let text = fs::read(path).map_err(|error| refuse(error.to_string()))?;
-    serde_json::from_slice(&text).map_err(|error| refuse(format!("cannot be read: {error}")))
 }
 
 #[cfg(test)]

@@ -1,0 +1,51 @@
+//! How pages write what has units: numbers, and the names of axes.
+
+use fret_core::model::Dimension;
+use fret_core::units::Units;
+
+use super::html::{given, number};
+use crate::drawing::scale::Label;
+
+/// What has units.
+pub trait Measured {
+    /// Units that the case declares.
+    fn units(&self) -> Option<&Units>;
+
+    /// Whether the contact has two axes or is a line contact, with loads of a unit of its length.
+    fn dimension(&self) -> Dimension;
+
+    /// The unit of a kind of quantity such as `force x length`, where the case declares units and the quantity has one.
+    fn unit(&self, kind: &str) -> Option<String> {
+        let units = self.units().filter(|_| !matches!(kind, "" | "-"))?;
+        Some(units.of(self.dimension().kind(kind)).replace("^2", "²").replace("^3", "³"))
+    }
+
+    /// The name of an axis with its unit.
+    fn label(&self, name: &str, kind: &str) -> Label {
+        Label { name: name.to_owned(), unit: self.unit(kind) }
+    }
+
+    /// A printed number with its unit.
+    fn with_unit(&self, number: String, kind: &str) -> String {
+        self.unit(kind).map_or_else(|| number.clone(), |unit| format!("{number}\u{a0}{unit}"))
+    }
+
+    /// A number of the results with its unit.
+    fn number(&self, value: f64, kind: &str) -> String {
+        self.with_unit(number(value), kind)
+    }
+
+    /// A number of the case with its unit.
+    fn given(&self, value: f64, kind: &str) -> String {
+        self.with_unit(given(value), kind)
+    }
+
+    /// Names of the axes of a fretting loop, or of one of torsion.
+    fn loop_labels(&self, twists: bool) -> [Label; 2] {
+        if twists {
+            [self.label("rotation", "rad"), self.label("torsional moment", "force x length")]
+        } else {
+            [self.label("relative displacement", "length"), self.label("tangential force", "force")]
+        }
+    }
+}
