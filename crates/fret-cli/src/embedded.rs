@@ -8,7 +8,7 @@ use fret_core::history::History;
 use fret_core::history::Start;
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::study::{StageQuantities, companion};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 pub use crate::arguments::StudyRequest;
 use crate::commands::preparation::Wanted;
@@ -152,7 +152,7 @@ pub fn study(
             terminal::say(text);
         }
     };
-    Ok(studied((&plan.case.title, plan), question, None, &say, guest)?.record)
+    Ok(json!(studied((&plan.case.title, plan), question, None, &say, guest)?.record))
 }
 
 /// Constants of a model from a measured log, as `identified.json` has them, and the page with its pictures.

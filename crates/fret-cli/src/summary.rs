@@ -4,10 +4,11 @@ use std::fmt::Write;
 use std::path::Path;
 
 use fret_core::case::Stage;
-use fret_core::history::{CycleRecord, CycleRegime, Drive, StepRecord, Warning, WornTo};
+use fret_core::history::{CycleRecord, CycleRegime, Drive, StepRecord, Warning, WornByLayer, WornTo};
 use fret_core::model::Dimension;
 use fret_core::plan::{Coupling, Plan};
 use fret_core::study::pressure_is_unbounded;
+use fret_core::units::Units;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -52,6 +53,7 @@ type Reading = (&'static str, &'static str, fn(&StepRecord) -> String);
 impl Summary<'_> {
     /// The table.
     pub fn table(&self) -> String {
+        let dimension = self.plan.grid.dimension();
         let mut table = String::new();
         if !self.plan.case.title.is_empty() {
             let _ = writeln!(table, "{}\n", shortened(&self.plan.case.title, LONGEST_TITLE));
@@ -93,6 +95,12 @@ impl Summary<'_> {
                 "{what:<NAMES$}after {after} of {}, at ({x}, {y})",
                 self.stage_name(worn.stage)
             );
+        }
+        let volume =
+            |value: f64| figure(value) + &Units::after(self.plan.case.units.as_ref(), "length^3", dimension);
+        for (name, volumes) in self.tally.worn_by_layer.iter().flat_map(|worn| volumes_by_layer(worn, volume))
+        {
+            let _ = writeln!(table, "{name:<NAMES$}{volumes}");
         }
         if let Some(estimate) = self.estimate {
             let _ = writeln!(table, "{}\n", estimate.table(|stage| self.stage_name(stage).to_owned()));
@@ -350,6 +358,15 @@ const LONGEST_LINE: usize = 1000;
 /// A warning in a line: words and a way out.
 pub fn warning_line(warning: &Warning) -> String {
     shortened(&format!("warning: {}; {}", warning.message, warning.help), LONGEST_LINE)
+}
+
+/// Volumes that the layers of each body have lost, from the surface down.
+pub fn volumes_by_layer(worn: &WornByLayer, volume: impl Fn(f64) -> String) -> Vec<(String, String)> {
+    let of = |(body, lost): (&str, &Vec<f64>)| {
+        let lost = lost.iter().map(|lost| volume(*lost)).collect::<Vec<_>>();
+        (!lost.is_empty()).then(|| (format!("worn off layers, {body} body"), lost.join(", ")))
+    };
+    [("lower", &worn.lower), ("upper", &worn.upper)].into_iter().filter_map(of).collect()
 }
 
 /// The sliding condition of a cycle, in words.

@@ -59,11 +59,11 @@ impl Crack<'_> {
                     "the stresses are not finished and nothing is written".to_owned(),
                 ));
             }
-            Err(why) => CrackAnswer {
-                record: CrackRecord::None { fate: "none".to_owned(), reason: why.to_string() },
-                table: format!("  crack: none: {why}\n"),
-                csv: None,
-            },
+            Err(why) => {
+                let record = CrackRecord::None { fate: "none".to_owned(), reason: why.to_string() };
+                let table = format!("  {}\n", record.words(|value, _| figure(value)));
+                CrackAnswer { record, table, csv: None }
+            }
         }))
     }
 
@@ -87,21 +87,7 @@ impl Crack<'_> {
             cycles: course.cycles,
         };
         let units = self.run.units();
-        let length = figure_in(units, course.length, "length");
-        let end = match course.fate {
-            CrackFate::DoesNotGrow => format!("does not grow: below the threshold at {length}"),
-            CrackFate::Stops => format!("stops at length {length}"),
-            CrackFate::Grows => format!("grows to {length}"),
-            CrackFate::Fractures => format!("reaches the toughness at {length}"),
-        };
-        let cycles =
-            course.cycles.map_or(String::new(), |cycles| format!(" after {} cycles", figure(cycles)));
-        let table = format!(
-            "  crack from x {} y {}, {} degrees from the normal: {end}{cycles}\n",
-            figure_in(units, x, "length"),
-            figure_in(units, y, "length"),
-            figure(degrees)
-        );
+        let table = format!("  {}\n", record.words(|value, kind| figure_in(units, value, kind)));
         let columns = Columns::<CrackLength>::new()
             .column("length", "length", |at| at.length)
             .column("k1_max", INTENSITY, |at| at.largest)

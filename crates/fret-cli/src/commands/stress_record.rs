@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use fret_core::units::Units;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::figures::UNLIMITED;
+use crate::figures::{UNLIMITED, bounded};
 use crate::table::{Cell, Columns};
 
 /// All of it.
@@ -185,6 +185,26 @@ pub enum CrackRecord {
     },
 }
 
+impl CrackRecord {
+    /// What becomes of it, in words; `figure` prints a number beside the kind of its unit.
+    pub fn words(&self, figure: impl Fn(f64, &str) -> String) -> String {
+        let (fate, [x, y, length], angle, cycles) = match self {
+            Self::None { reason, .. } => return format!("crack: none: {reason}"),
+            Self::Followed { fate, x, y, angle, length, cycles, .. } => {
+                (fate, [x, y, length].map(|value| figure(*value, "length")), figure(*angle, ""), cycles)
+            }
+        };
+        let end = match fate.as_str() {
+            "does_not_grow" => format!("does not grow: below the threshold at {length}"),
+            "stops" => format!("stops at length {length}"),
+            "fractures" => format!("reaches the toughness at {length}"),
+            _ => format!("grows to {length}"),
+        };
+        let cycles = cycles.map_or(String::new(), |cycles| format!(" after {} cycles", figure(cycles, "")));
+        format!("crack from x {x} y {y}, {angle} degrees from the normal: {end}{cycles}")
+    }
+}
+
 /// A crack of the outermost coating.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct FilmRecord {
@@ -210,6 +230,23 @@ pub struct FilmRecord {
     /// Root of toughness over energy.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub delamination_factor_of_safety: Option<Bounded>,
+}
+
+impl FilmRecord {
+    /// What is told of it.
+    pub fn columns<'a>() -> Columns<'a, Self> {
+        let factor = |factor: Option<Bounded>| factor.map(|factor| bounded(factor.0));
+        Columns::<Self>::new()
+            .column("mean stress", "pressure", |film| film.stress)
+            .column("x", "length", |film| film.x)
+            .column("y", "length", |film| film.y)
+            .column("energy released by channelling", "pressure x length", |film| film.channelling)
+            .column("by delamination", "pressure x length", |film| film.delamination)
+            .column("factor of safety, channelling", "", move |film| {
+                factor(film.channelling_factor_of_safety)
+            })
+            .column("delamination", "", move |film| factor(film.delamination_factor_of_safety))
+    }
 }
 
 /// A number that may be beyond all bounds: in files the word "unlimited".

@@ -9,7 +9,7 @@ use fret_core::study::{
     ClosedForm, Level, Line, Place, Quantity, Reference, RefinementStudy, Resolutions, pressure_is_unbounded,
     solved_level,
 };
-use serde_json::{Value, json};
+use serde_json::json;
 
 use crate::arguments::{StudyArguments, StudyRequest};
 use crate::defect;
@@ -19,6 +19,7 @@ use crate::interrupt::{self, Listener};
 use crate::report::study::STUDY;
 use crate::study::levels::{LEVELS, Levels};
 use crate::study::record::StudyRecord;
+use crate::study::table::ErrorColumn;
 use crate::study::{picture, reference, table, words};
 use crate::terminal::{self, Answer};
 use fret_results::CaseFile;
@@ -52,22 +53,22 @@ pub fn study(arguments: &StudyArguments) -> Result<Answer, Failure> {
     };
     let title = case_file.title(&plan.case);
     let studied = pool.install(|| studied((&title, &plan), question, Some(&kept), &say, &mut Listener))?;
-    let text = format!("{:#}", studied.record);
-    let Studied { study, lines, .. } = &studied;
-    write_whole(&folder.join("study.csv"), table::csv(study, lines).as_bytes())?;
+    let Studied { record, study, lines, measured } = &studied;
+    write_whole(&folder.join("study.csv"), table::csv(&record.lines).as_bytes())?;
     write_whole(
         &folder.join("study.svg"),
         picture::picture(&title, plan.case.dimension(), study, lines).as_bytes(),
     )?;
-    write_whole(&folder.join(STUDY), format!("{text}\n").as_bytes())?;
+    let answer = json!(record);
+    write_whole(&folder.join(STUDY), format!("{answer:#}\n").as_bytes())?;
     kept.remove();
-    let Studied { measured, choice, reference, .. } = &studied;
     let text = format!(
-        "{title}\n{measured}\n\n{}\n\n{choice}\n\nresults    {}",
-        table::table(study, lines, reference),
+        "{title}\n{measured}\n\n{}\n\n{}\n\nresults    {}",
+        table::table(record),
+        record.choice,
         folder.display()
     );
-    Ok(Answer::new(studied.record, text, false))
+    Ok(Answer::new(answer, text, false))
 }
 
 /// What is to be studied: resolutions that fit into memory, and what they are compared with.
@@ -88,13 +89,12 @@ impl Question {
 
 /// A study with its answer.
 pub struct Studied {
-    /// All of it, for programs.
-    pub record: Value,
+    /// All of it.
+    pub record: StudyRecord,
     study: RefinementStudy,
-    reference: Reference,
     lines: Vec<Line>,
+    /// What its errors are measured by, in words.
     measured: String,
-    choice: String,
 }
 
 /// Solves the levels of a study and compares them; finished levels are taken from `kept` and left there.
@@ -127,15 +127,15 @@ pub fn studied(
         study.resolutions().increments.len() > 1,
         (dimension, plan.case.cells[1] as f64 / plan.case.cells[0] as f64),
     );
-    let measured = if table::shows_errors(&lines) {
-        let shown = |quantity| table::shows_errors_of(&lines, quantity);
-        let said = [words::measured_by, words::without_order].map(|of| of(&reference, &shown, dimension));
-        said.join("\n").trim_end().to_owned()
-    } else {
-        words::NO_ERRORS.to_owned()
+    let record = StudyRecord::new(title, &reference, (&study, &lines), (&advice, &choice), &unsolved);
+    let known = ErrorColumn::known(&record.lines);
+    let shown = |quantity| known.iter().any(|column| column.is_of(quantity));
+    let said = [words::measured_by, words::without_order].map(|of| of(&reference, &shown, dimension));
+    let measured = match known.is_empty() {
+        true => words::NO_ERRORS.to_owned(),
+        false => said.join("\n").trim_end().to_owned(),
     };
-    let record = json!(StudyRecord::new(title, &reference, (&study, &lines), (&advice, &choice), &unsolved));
-    Ok(Studied { record, study, reference, lines, measured, choice })
+    Ok(Studied { record, study, lines, measured })
 }
 
 fn resolutions(request: &StudyRequest, plan: &Plan) -> Result<Resolutions, Failure> {

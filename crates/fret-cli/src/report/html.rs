@@ -83,7 +83,11 @@ pub fn grid<R, B: Borrow<R>>(
     rows: impl IntoIterator<Item = B>,
     number: impl Fn(f64, &str) -> String,
 ) -> Markup {
-    let row = |row: B| columns.cells(row.borrow(), |_, value, kind| number(value, kind));
+    let printed = |cell: String| if cell == "-" { "–".to_owned() } else { cell };
+    let row = |row: B| {
+        let cells = columns.cells(row.borrow(), |_, value, kind| number(value, kind));
+        cells.into_iter().map(printed).collect()
+    };
     table(&columns.names(), &rows.into_iter().map(row).collect::<Vec<_>>())
 }
 

@@ -1,20 +1,20 @@
 //! A study of refinement in one page: which resolution to choose, the error of every quantity over the cells and the increments, and over
 //! the time that a level took. Read back from `study.json`.
 
-use std::collections::BTreeMap;
 use std::path::Path;
+use std::slice;
 
 use fret_core::model::Dimension;
 use fret_core::study::{Kind, Source};
 use maud::{Markup, html};
 
-use super::html::{chapter, side_by_side, table};
+use super::html::{chapter, grid, side_by_side, table};
 use super::{read_answer, whole_page};
 use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::scale::Label;
 use crate::failure::Failure;
 use crate::study::record::{LevelRecord, LineRecord, StudyRecord, UnsolvedRecord};
-use crate::study::table::{increments, kind_name};
+use crate::study::table::{ErrorColumn, columns, increments, kind_name};
 
 /// The answer of a study, which marks its folder.
 pub const STUDY: &str = "study.json";
@@ -36,7 +36,7 @@ pub fn page(folder: &Path) -> Result<(String, usize), Failure> {
             @for line in study.choice.lines() { p { (line) } }
             (measured_by(&study))
         }))
-        @for line in &study.lines { (refined(line)) }
+        @for line in &study.lines { (refined(&study, line)) }
         (unsolved(&study.unsolved))
     };
     Ok((whole_page(&title, &content), levels))
@@ -68,30 +68,24 @@ fn measured_by(study: &StudyRecord) -> Markup {
 }
 
 /// A line of levels: charts of its errors, and its table.
-fn refined(line: &LineRecord) -> Markup {
+fn refined(study: &StudyRecord, line: &LineRecord) -> Markup {
     let LineRecord { refined, levels } = line;
     let resolution = |level: &LevelRecord| match refined {
         Kind::Increments => level.increments.iter().copied().max().unwrap_or(0) as f64,
         Kind::Tolerance => level.tolerance,
         Kind::Cells | Kind::Together => level.cells[0] as f64,
     };
-    let known = levels.iter().flat_map(|level| &level.errors).filter(|(_, error)| error.is_some());
-    let mut names: Vec<&str> = Vec::new();
-    for (name, _) in known {
-        if !names.contains(&name.as_str()) {
-            names.push(name);
-        }
-    }
+    let known = ErrorColumn::known(slice::from_ref(line));
     let over = |of: &dyn Fn(&LevelRecord) -> f64| -> Vec<Curve> {
-        let curve = |(place, name): (usize, &&str)| {
-            let at = |level: &LevelRecord| Some([of(level), level.errors.get(*name).copied()??]);
+        let curve = |(place, column): (usize, &ErrorColumn)| {
+            let at = |level: &LevelRecord| Some([of(level), column.of(level)[0]?]);
             let mut points: Vec<[f64; 2]> = levels.iter().filter_map(at).collect();
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            let line = Curve::line(points, &name.replace('_', " "), place % 6);
+            let line = Curve::line(points, column.name, place % 6);
             let dots = Curve { name: None, ..line.clone() }.drawn(Stroke::Dots);
             [line, dots]
         };
-        names.iter().enumerate().flat_map(curve).collect()
+        known.iter().enumerate().flat_map(curve).collect()
     };
     let figure = |axis: Label, of: &dyn Fn(&LevelRecord) -> f64, caption: &str| {
         let axes = [axis, Label::plain("relative error")];
@@ -109,32 +103,10 @@ fn refined(line: &LineRecord) -> Markup {
         figure(time, &|level| level.wall_s, "The same over the time that the level took."),
     ];
     let body = html! {
-        @if !names.is_empty() && levels.len() > 1 { (side_by_side(&figures)) }
-        (rows(levels, &names))
+        @if !known.is_empty() && levels.len() > 1 { (side_by_side(&figures)) }
+        (grid(&columns(study, &known), levels.iter().enumerate(), |value, _| value.to_string()))
     };
     chapter(&format!("Refined: {}", kind_name(*refined)), &body)
-}
-
-fn rows(levels: &[LevelRecord], names: &[&str]) -> Markup {
-    let mut head = ["cells", "increments", "tolerance", "time [s]"].map(str::to_owned).to_vec();
-    let dimension = levels.first().map_or(Dimension::Plane, |level| Dimension::of(level.cells));
-    head.extend(names.iter().flat_map(|name| [in_words(name, dimension), "order".to_owned()]));
-    let row = |level: &LevelRecord| {
-        let mut row = vec![
-            Dimension::of(level.cells).written(level.cells),
-            increments(&level.increments),
-            format!("{:.0e}", level.tolerance),
-            format!("{:.3}", level.wall_s),
-        ];
-        let known = |values: &BTreeMap<String, Option<f64>>, name: &str| values.get(name).copied().flatten();
-        for name in names {
-            row.push(known(&level.errors, name).map_or("–".to_owned(), |error| format!("{error:.1e}")));
-            row.push(known(&level.orders, name).map_or("–".to_owned(), |order| format!("{order:.1}")));
-        }
-        row
-    };
-    let rows: Vec<Vec<String>> = levels.iter().map(row).collect();
-    table(&head.iter().map(String::as_str).collect::<Vec<_>>(), &rows)
 }
 
 fn unsolved(levels: &[UnsolvedRecord]) -> Markup {

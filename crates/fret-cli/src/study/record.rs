@@ -10,7 +10,7 @@ use fret_core::study::{
 use serde::{Deserialize, Serialize};
 
 /// Something of every quantity of interest, by its name in files.
-type OfQuantities<T> = BTreeMap<String, T>;
+pub type OfQuantities<T> = BTreeMap<String, T>;
 
 /// All of it.
 #[derive(Debug, Serialize, Deserialize)]
@@ -82,6 +82,9 @@ pub struct LevelRecord {
     pub order_of_shear: Option<f64>,
     /// Whether no other level takes less work and is closer.
     pub is_efficient: bool,
+    /// The same by the errors as the cells have the numbers, and by those with the next coarser grid; in the table alone.
+    #[serde(skip)]
+    pub is_efficient_otherwise: [bool; 2],
 }
 
 /// A level that was not solved.
@@ -159,6 +162,8 @@ impl LevelRecord {
             order_of_pressure: judged.field_orders[0],
             order_of_shear: judged.field_orders[1],
             is_efficient: judged.is_efficient[Form::Between as usize],
+            is_efficient_otherwise: [Form::Plain, Form::Extrapolated]
+                .map(|form| judged.is_efficient[form as usize]),
         }
     }
 }

@@ -7,10 +7,10 @@ use base64::prelude::{BASE64_STANDARD, Engine};
 use maud::{Markup, html};
 
 use crate::commands::stress_kinds::{kind_of_stress, stress_called};
-use crate::commands::stress_record::{CrackRecord, LargestRecord, ParameterRecord, StressRecord};
+use crate::commands::stress_record::{FilmRecord, LargestRecord, ParameterRecord, StressRecord};
 use crate::drawing::chart::{Chart, Curve};
 use crate::drawing::figure_of;
-use crate::figures::{bounded, capitalised, figure};
+use crate::figures::{bounded, capitalised};
 use crate::report::Measured;
 use crate::report::html::{chapter, grid, side_by_side};
 use crate::report::overview::Overview;
@@ -49,29 +49,16 @@ pub fn stress(view: &Overview<'_>) -> Markup {
             p class="after" { "Fatigue parameters over the last cycle, under all cells:" }
             (grid(&columns, parameters, number))
         }
-        @if let Some(sentence) = crack_of(&record) {
-            p { (sentence) }
+        @if let Some(crack) = record.fatigue.as_ref().and_then(|fatigue| fatigue.crack.as_ref()) {
+            p { (capitalised(&crack.words(number))) "." }
+        }
+        @if let Some(films) = &record.coating {
+            p class="after" { "Fracture of the outermost coating:" }
+            (grid(&FilmRecord::columns(), films, number))
         }
         (side_by_side(&figures))
     };
     chapter("Stress below the surface", &body)
-}
-
-/// What becomes of the short crack, in a sentence.
-fn crack_of(record: &StressRecord) -> Option<String> {
-    let (fate, x, angle, length, cycles) = match record.fatigue.as_ref()?.crack.as_ref()? {
-        CrackRecord::None { reason, .. } => return Some(format!("No crack was followed: {reason}.")),
-        CrackRecord::Followed { fate, x, angle, length, cycles, .. } => (fate, x, angle, length, cycles),
-    };
-    let [x, angle, length] = [x, angle, length].map(|value| figure(*value));
-    let becomes = match fate.as_str() {
-        "does_not_grow" => format!("does not grow from its length of {length}"),
-        "stops" => format!("stops at a length of {length}"),
-        "fractures" => format!("reaches the toughness at a length of {length}"),
-        _ => format!("grows to a length of {length}"),
-    };
-    let cycles = cycles.map_or(String::new(), |cycles| format!(" after {} cycles", figure(cycles)));
-    Some(format!("A crack from x = {x}, {angle} degrees from the normal of the surface, {becomes}{cycles}."))
 }
 
 /// Von Mises stress over the depth, largest at each, in the increment where it is largest of all.

@@ -8,9 +8,10 @@ use crate::drawing::map::Map;
 use crate::failure::Failure;
 use crate::report::Measured;
 use crate::report::chapters::sections::seen;
-use crate::report::html::{chapter, side_by_side};
+use crate::report::html::{chapter, pairs, side_by_side};
 use crate::report::overview::Overview;
 use crate::report::window::{Section, Window};
+use crate::summary::volumes_by_layer;
 
 /// Sections, at most.
 const MOST: usize = 5;
@@ -61,7 +62,11 @@ pub fn wear(view: &Overview<'_>) -> Result<Markup, Failure> {
         figure_of(&map.drawing()?.in_page(), "Wear depth at the end."),
     ];
     let figures: Vec<Markup> = figures.into_iter().chain(debris).collect();
-    Ok(chapter("Wear scar", &side_by_side(&figures)))
+    let worn = view.results.record.end.as_ref().and_then(|end| end.worn_by_layer.as_ref());
+    let lost =
+        worn.map_or_else(Vec::new, |worn| volumes_by_layer(worn, |lost| view.number(lost, "length^3")));
+    let lost: Vec<(String, Markup)> = lost.into_iter().map(|(name, lost)| (name, html! { (lost) })).collect();
+    Ok(chapter("Wear scar", &html! { (side_by_side(&figures)) @if !lost.is_empty() { (pairs(&lost)) } }))
 }
 
 /// The wear depth at the end, the debris in it, and what is open between the two, along the line; `None` where no debris is kept.
