@@ -1,5 +1,6 @@
 """A history as an xarray Dataset."""
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,6 +24,45 @@ def module(what: str) -> Any:
     return xarray
 
 
+def axes(history: "History") -> dict[str, Any]:
+    """Return the centres of the cells along the axes of the surface."""
+    along = {"x": history.x} if history.is_line else {"x": history.x, "y": history.y}
+    return {
+        name: (name, centres, described(f"cell centres along {name} [length]", history._units))
+        for name, centres in along.items()
+    }
+
+
+def on_cells(history: "History", values: npt.NDArray[Any], words: str, *before: str) -> tuple[Any, ...]:
+    """Return a variable of cells with its meaning; ``before`` are the dimensions before those of the surface."""
+    across = ("x",) if history.is_line else ("y", "x")
+    shaped = values.reshape(*values.shape[: len(before)], *history.shape)
+    if not history.is_line:
+        shaped = np.swapaxes(shaped, -1, -2)
+    return (*before, *across), shaped, described(words, history._units)
+
+
+def place(history: "History", axis: int, cell: float) -> float:
+    """Return where a cell, counted from the first and not always whole, lies along an axis; 0 along a line contact."""
+    centres = (history.x, history.y)[axis]
+    return float(centres[0]) + cell * history._spacing[axis] if len(centres) > 1 else 0.0
+
+
+def numbers(history: "History", along: str, values: Iterable[float | None], words: str) -> tuple[Any, ...]:
+    """Return a variable of numbers along a dimension; NaN where there is none."""
+    known = np.array([np.nan if value is None else value for value in values], dtype=float)
+    return (along,), known, described(words, history._units)
+
+
+def span(history: "History", cycle: int) -> tuple[int, int]:
+    """Return the first and the last increment of a computed cycle."""
+    count = len(history.cycles["cycle"])
+    if not -count <= cycle < count:
+        raise IndexError(f"cycle {cycle}: the history has {count} computed cycles, counted from 0")
+    first, last = (int(history.cycles[name][cycle]) for name in ("first_increment", "last_increment"))
+    return first, last
+
+
 def of_history(history: "History", every: bool) -> "xarray.Dataset":
     """Return a Dataset of every increment, or of the kept ones alone: see :meth:`fretting.History.to_xarray`."""
     library = module("to_xarray")
@@ -32,12 +72,10 @@ def of_history(history: "History", every: bool) -> "xarray.Dataset":
     increment = {"long_name": MEANING["increment"]}
     coordinates: dict[str, Any] = {
         "increment": ("increment", chosen, increment),
-        "x": ("x", history.x, described("cell centres along x [length]", history._units)),
         "stage": ("increment", history.increments["stage"][chosen], {"long_name": MEANING["stage"]}),
         "stage_name": ("increment", _names(history, history.increments["stage"][chosen])),
+        **axes(history),
     }
-    if not history.is_line:
-        coordinates["y"] = ("y", history.y, described("cell centres along y [length]", history._units))
     across = ("x",) if history.is_line else ("y", "x")
     variables: dict[str, Any] = {
         name: ("increment", column[chosen], described(MEANING[name], history._units))

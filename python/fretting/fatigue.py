@@ -1,7 +1,7 @@
 """Fatigue of a history over a cycle, as datasets: parameters under all cells, a short crack, cracks of the coating."""
 
+import functools
 import json
-from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -58,20 +58,8 @@ def fatigue(
     module = _dataset.module("fatigue")
     chosen, arguments = _cycle(history, cycle, body)
     answer = _core.fatigue(*arguments, points(depths), _constants(history, constants), threads)
-    across = ("x",) if history.is_line else ("y", "x")
-    order = (0, 1) if history.is_line else (0, 2, 1)
-
-    def oriented(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
-        if values.ndim == 2:  # at the surface
-            return values.reshape(history.shape).transpose()
-        return values.reshape(len(values), *history.shape).transpose(order)
-
     variables = {
-        name: (
-            ("depth", *across) if values.ndim == 3 else across,
-            oriented(values),
-            described(PARAMETERS[name], history._units),
-        )
+        name: _dataset.on_cells(history, values, PARAMETERS[name], *("depth",) * (values.ndim - 2))
         for name, values in answer.items()
         if name not in ("depth", "layer", "most_severe")
     }
@@ -85,25 +73,18 @@ def fatigue(
 
 def _most_severe(history: "History", severe: dict[str, dict[str, Any]]) -> dict[str, Any]:
     """Return the largest value of each parameter with its place, as ``fret stress`` tells it."""
-
-    def column(
-        values: Iterable[float | None], words: str
-    ) -> tuple[tuple[str], npt.NDArray[np.float64], dict[str, str]]:
-        numbers = np.array([np.nan if value is None else value for value in values], dtype=float)
-        return ("parameter",), numbers, described(words, history._units)
-
     found = severe.values()
     variables: dict[str, Any] = {
-        name: column((one.get(name) for one in found), words)
+        name: _dataset.numbers(history, "parameter", (one.get(name) for one in found), words)
         for name, words in MOST_SEVERE.items()
         if any(name in one for one in found)
     }
-    for axis, (name, centres) in enumerate((("x", history.x), ("y", history.y))):
-        first = float(centres[0]) if len(centres) > 1 else 0.0
-        step = history._spacing[axis] if len(centres) > 1 else 0.0
-        places = (first + one["place"][axis] * step for one in found)
-        variables[f"largest_{name}"] = column(places, f"place of the largest value along {name} [length]")
-    variables["largest_depth"] = column((one["depth"] for one in found), "depth of the largest value [length]")
+    for axis, name in enumerate("xy"):
+        places = [_dataset.place(history, axis, one["place"][axis]) for one in found]
+        words = f"place of the largest value along {name} [length]"
+        variables[f"largest_{name}"] = _dataset.numbers(history, "parameter", places, words)
+    depths = (one["depth"] for one in found)
+    variables["largest_depth"] = _dataset.numbers(history, "parameter", depths, "depth of the largest value [length]")
     normals = [one["normal"] or [np.nan] * 3 for one in found]
     words = "unit normal of the critical plane there"
     variables["critical_plane"] = (("parameter", "axis"), np.reshape(normals, (-1, 3)), {"long_name": words})
@@ -128,11 +109,7 @@ def crack(
         dataset = module.Dataset(attrs={**attributes, "fate": "none", "reason": told["reason"], **unknown})
         return dataset
     course = told["course"]
-    centres = (history.x, history.y)
-    x, y = (
-        float(centres[axis][0]) + told["place"][axis] * history._spacing[axis] if len(centres[axis]) > 1 else 0.0
-        for axis in range(2)
-    )
+    x, y = (_dataset.place(history, axis, told["place"][axis]) for axis in range(2))
     attributes |= {"fate": course["fate"], "x": x, "y": y, "angle": told["angle"], "towards": told["towards"]}
     attributes["length"] = course["length"]
     ends = course["fate"] in ("does_not_grow", "stops")
@@ -166,40 +143,28 @@ def coating_fracture(
     told = json.loads(_core.coating_fracture(*arguments, _constants(history, constants), threads))
     cracks = told["cracks"]
 
-    def column(
-        values: Sequence[float | None], words: str
-    ) -> tuple[tuple[str], npt.NDArray[np.float64], dict[str, str]]:
-        numbers = np.array([np.nan if value is None else value for value in values], dtype=float)
-        return ("sense",), numbers, described(words, history._units)
-
+    of = functools.partial(_dataset.numbers, history, "sense")
     released = [crack["released"] for crack in cracks]
+    energy = "energy released by {} [force/length]"
     variables: dict[str, Any] = {
-        "stress": column([crack["stress"] for crack in cracks], "mean stress over the thickness [pressure]"),
-        "direction": column(
-            [crack["direction"] for crack in cracks], "direction of that stress to the x axis [degrees]"
-        ),
-        "channelling": column(
-            [one["channelling"] for one in released], "energy released by channelling [force/length]"
-        ),
-        "delamination": column(
-            [one["delamination"] for one in released], "energy released by delamination [force/length]"
-        ),
-        "phase": column([one["phase"] for one in released], "phase angle of the delamination [degrees]"),
+        "stress": of([crack["stress"] for crack in cracks], "mean stress over the thickness [pressure]"),
+        "direction": of([crack["direction"] for crack in cracks], "direction of that stress to the x axis [degrees]"),
+        "channelling": of([one["channelling"] for one in released], energy.format("channelling")),
+        "delamination": of([one["delamination"] for one in released], energy.format("delamination")),
+        "phase": of([one["phase"] for one in released], "phase angle of the delamination [degrees]"),
     }
     for kind, toughness in (("channelling", told["fracture_energy"]), ("delamination", told["interface_energy"])):
         if toughness is not None:
-            energy = variables[kind][1]
-            factor = np.sqrt(np.divide(toughness, energy, out=np.full_like(energy, np.inf), where=energy != 0))
+            known = variables[kind][1]
+            factor = np.sqrt(np.divide(toughness, known, out=np.full_like(known, np.inf), where=known != 0))
             variables[f"{kind}_factor_of_safety"] = (
                 ("sense",),
                 factor,
                 {"long_name": "factor on the stress that fractures"},
             )
-    cells = [crack["cell"] for crack in cracks]
-    centres = (history.x, history.y)
-    for axis, name in enumerate("xy"):
-        places = [float(centres[axis][cell[axis]]) if len(centres[axis]) > 1 else 0.0 for cell in cells]
-        variables[name] = column(places, f"place along {name} [length]")
+    for axis, (name, centres) in enumerate((("x", history.x), ("y", history.y))):
+        places = (float(centres[crack["cell"][axis]]) if len(centres) > 1 else 0.0 for crack in cracks)
+        variables[name] = of(places, f"place along {name} [length]")
     variables["increment"] = (("sense",), np.array([chosen[crack["surface"]] for crack in cracks], dtype=int))
     senses = ["tension" if crack["stress"] > 0 else "compression" for crack in cracks]
     attributes = {"body": body, "increments": chosen}
@@ -210,10 +175,7 @@ def coating_fracture(
 def _cycle(history: "History", cycle: int, body: Literal["lower", "upper"]) -> tuple[list[int], tuple[Any, Any, Any]]:
     """Return the kept increments of a cycle, and bodies, setting and loading for the core."""
     refuse_thinned(history)
-    count = len(history.cycles["cycle"])
-    if not -count <= cycle < count:
-        raise IndexError(f"cycle {cycle}: the history has {count} computed cycles, counted from 0")
-    first, last = (int(history.cycles[name][cycle]) for name in ("first_increment", "last_increment"))
+    first, last = _dataset.span(history, cycle)
     chosen = [number for number in history.kept_increments if first - 1 <= number <= last]
     if len(chosen) < 3:
         raise ValueError(

@@ -38,10 +38,7 @@ def temperature(history: "History", cycle: int, frequency: float | None, threads
         raise ValueError(f"frequency = {frequency}: must be positive and finite")
     if history.plan["case"]["friction"].get("max_shear") is not None:
         raise ValueError("temperature: heat by friction under friction.max_shear, a shear strength, is not computed")
-    count = len(history.cycles["cycle"])
-    if not -count <= cycle < count:
-        raise IndexError(f"cycle {cycle}: the history has {count} computed cycles, counted from 0")
-    first, last = (int(history.cycles[name][cycle]) for name in ("first_increment", "last_increment"))
+    first, last = _dataset.span(history, cycle)
     increments = []
     if first == 0:
         none = np.zeros((len(history.x), len(history.y)))
@@ -60,12 +57,8 @@ def temperature(history: "History", cycle: int, frequency: float | None, threads
         for name, meaning in FIELDS.items()
         if name in answer
     }
-    coordinates = {
-        "x": ("x", history.x, described("cell centres along x [length]", history.units)),
-        "y": ("y", history.y, described("cell centres along y [length]", history.units)),
-    }
     attributes = {"frequency": frequency, "increments": [first, last], "kept_fields_account_for": answer["accounted"]}
-    dataset: xarray.Dataset = module.Dataset(variables, coords=coordinates, attrs=attributes)
+    dataset: xarray.Dataset = module.Dataset(variables, coords=_dataset.axes(history), attrs=attributes)
     return dataset
 
 

@@ -47,26 +47,16 @@ def subsurface(
     setting = (history._bodies, is_upper(body)), (history._spacing, history._periodic)
     even = bulk_stress(history, increment, body), history._residual_stress
     answer = _core.subsurface_stress(*setting, (pressure, shear), points(depths), even, threads)
-    across = ("x",) if history.is_line else ("y", "x")
-    order = (0, 1) if history.is_line else (0, 2, 1)
-
-    def oriented(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
-        return values.reshape(len(values), *history.shape).transpose(order)
-
-    stress = {name: oriented(answer[name]) for name in COMPONENTS}
+    variables: dict[str, Any] = {
+        name: _dataset.on_cells(history, answer[name], f"stress {name}, tension positive [pressure]", "depth")
+        for name in COMPONENTS
+    }
+    variables["von_mises"] = _dataset.on_cells(history, answer["von_mises"], "von Mises stress [pressure]", "depth")
+    stress = {name: variables[name][1] for name in COMPONENTS}
     tensor = np.stack([np.stack([stress["".join(sorted(i + j))] for j in "xyz"], axis=-1) for i in "xyz"], axis=-1)
     principal = np.moveaxis(np.linalg.eigvalsh(tensor)[..., ::-1], -1, 0)
-    variables: dict[str, Any] = {
-        name: (("depth", *across), values, described(f"stress {name}, tension positive [pressure]", history._units))
-        for name, values in stress.items()
-    }
-    variables["von_mises"] = (
-        ("depth", *across),
-        oriented(answer["von_mises"]),
-        described("von Mises stress [pressure]", history._units),
-    )
     variables["principal"] = (
-        ("order", "depth", *across),
+        ("order", *variables["xx"][0]),
         principal,
         described("principal stress, tension positive [pressure]", history._units),
     )
@@ -74,7 +64,7 @@ def subsurface(
         moved = _core.subsurface_displacement(*setting, (pressure, shear), points(depths), threads)
         for name, values in moved.items():
             words = f"displacement of the {body} body along {name[-1]} [length]"
-            variables[name] = (("depth", *across), oriented(values), described(words, history._units))
+            variables[name] = _dataset.on_cells(history, values, words, "depth")
     axes = {
         **coordinates(history, answer),
         "order": ("order", np.arange(1, 4), {"long_name": "1: the largest principal stress"}),
@@ -93,14 +83,11 @@ def bulk_stress(history: "History", number: int, body: str) -> tuple[float, floa
 
 def coordinates(history: "History", answer: dict[str, npt.NDArray[Any]]) -> dict[str, Any]:
     """Return depths with their layers and the axes of the surface."""
-    axes: dict[str, Any] = {
+    return {
         "depth": ("depth", answer["depth"], described("depth under the surface [length]", history._units)),
         "layer": ("depth", answer["layer"], {"long_name": "layer: 0 is the outermost coating"}),
-        "x": ("x", history.x, described("x [length]", history._units)),
+        **_dataset.axes(history),
     }
-    if not history.is_line:
-        axes["y"] = ("y", history.y, described("y [length]", history._units))
-    return axes
 
 
 def points(depths: npt.ArrayLike) -> list[float]:

@@ -24,7 +24,7 @@ use crate::export::npz;
 use crate::failure::Failure;
 use crate::figures::{duration, figure_in};
 use crate::interrupt;
-use crate::terminal::{self, Answer};
+use crate::terminal::Answer;
 use fret_results::CaseFile;
 use fret_results::Results;
 use fret_results::{folder_below, write_whole};
@@ -57,14 +57,6 @@ pub fn answered(folder: &Path) -> Result<Option<(HeatRecord, String)>, Failure> 
         || run.grid().dimension() == Dimension::Line
         || run.fields.reached.is_empty();
     if has_none { Ok(None) } else { computed(folder, &run, None).map(Some) }
-}
-
-/// The same, told to a person.
-pub fn after_run(folder: &Path, quiet: bool) -> Result<(), Failure> {
-    match answered(folder)? {
-        Some((_, table)) if !quiet => terminal::answer(&table),
-        _ => Ok(()),
-    }
 }
 
 fn of([lower, upper]: &[Option<Conductor>; 2]) -> [Option<&Conductor>; 2] {

@@ -187,11 +187,16 @@ impl Preparation {
     /// Stresses, temperatures and contact resistances, where the case asks for them.
     fn stresses(&self, quiet: bool) -> Result<(), Failure> {
         let (case, folder) = (&self.plan.case, &self.folder);
-        if case.stress.is_some() {
-            self.pool.install(|| stress::after_run(folder, quiet))?;
+        let told = |text: &str| if quiet { Ok(()) } else { terminal::answer(text) };
+        if case.stress.is_some()
+            && let Some((_, text)) = self.pool.install(|| stress::answered(folder))?
+        {
+            told(&text)?;
         }
-        if !case.conduction.is_none() {
-            self.pool.install(|| heat::after_run(folder, quiet))?;
+        if !case.conduction.is_none()
+            && let Some((_, text)) = self.pool.install(|| heat::answered(folder))?
+        {
+            told(&text)?;
         }
         Ok(())
     }

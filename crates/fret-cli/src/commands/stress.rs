@@ -20,7 +20,7 @@ use crate::arguments::StressArguments;
 use crate::export::volume::{Field, Volume};
 use crate::failure::{Failure, Unwritten};
 use crate::interrupt;
-use crate::terminal::{self, Answer};
+use crate::terminal::Answer;
 use fret_results::Results;
 use fret_results::folder_below;
 
@@ -181,12 +181,4 @@ pub fn answered(folder: &Path) -> Result<Option<(StressRecord, String)>, Failure
     let run = Results::read(folder)?;
     let Some(request) = run.case().stress.clone() else { return Ok(None) };
     computed(folder, &run, &request).map(Some)
-}
-
-/// The same, told to a person.
-pub fn after_run(folder: &Path, quiet: bool) -> Result<(), Failure> {
-    match answered(folder)? {
-        Some((_, text)) if !quiet => terminal::answer(&text),
-        _ => Ok(()),
-    }
 }

@@ -131,10 +131,8 @@ pub fn studied(
     let known = ErrorColumn::known(&record.lines);
     let shown = |quantity| known.iter().any(|column| column.is_of(quantity));
     let said = [words::measured_by, words::without_order].map(|of| of(&reference, &shown, dimension));
-    let measured = match known.is_empty() {
-        true => words::NO_ERRORS.to_owned(),
-        false => said.join("\n").trim_end().to_owned(),
-    };
+    let measured =
+        if known.is_empty() { words::NO_ERRORS.to_owned() } else { said.join("\n").trim_end().to_owned() };
     Ok(Studied { record, study, lines, measured })
 }
 

@@ -106,11 +106,17 @@ impl Axis {
     }
 }
 
-/// Least and largest finite value; 0 and 1 when there is none.
-fn extent(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    let [low, high] = values
+/// Least and largest finite value; the other way round, and infinite, when there is none.
+pub fn ends(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    values
+        .into_iter()
         .filter(|value| value.is_finite())
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
+}
+
+/// The same; 0 and 1 when there is none.
+fn extent(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let [low, high] = ends(values);
     if low <= high { [low, high] } else { [0.0, 1.0] }
 }
 

@@ -5,7 +5,7 @@ use fret_core::units::Units;
 use crate::drawing::Drawing;
 use crate::drawing::map::Map;
 use crate::drawing::raster::Raster;
-use crate::drawing::scale::Label;
+use crate::drawing::scale::{Label, ends};
 use crate::failure::Failure;
 
 /// Width of a picture in its own units.
@@ -50,9 +50,7 @@ impl Section<'_> {
             return Ok(None);
         };
         let half = if self.x.len() > 1 { 0.5 * (self.x[1] - self.x[0]) } else { 0.5 };
-        let finite = || self.values.iter().flatten().copied().filter(|value| value.is_finite());
-        let own = [finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max)];
-        let range = self.range.unwrap_or(own);
+        let range = self.range.unwrap_or_else(|| ends(self.values.iter().flatten().copied()));
         let columns = self.x.len().min(MOST_COLUMNS);
         let value = |column: usize, row: usize| {
             let depth = top + (row as f64 + 0.5) / PIXELS as f64 * (bottom - top);

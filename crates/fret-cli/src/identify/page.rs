@@ -6,7 +6,7 @@ use maud::{Markup, html};
 use super::over_cycles;
 use super::table::{COLUMNS, Column};
 use crate::drawing::chart::{Chart, Curve, Stroke};
-use crate::drawing::scale::Label;
+use crate::drawing::scale::{Label, ends};
 use crate::report::html::{number, table};
 use crate::report::whole_page;
 
@@ -76,9 +76,7 @@ fn stack(found: &Identification, axes: [Label; 2]) -> Chart {
         found.cycles.iter().map(|cycle| &cycle.measured).filter(|cycle| cycle.fault.is_none()).collect();
     let every = cycles.len().div_ceil(MOST_LOOPS).max(1);
     let range = |of: &dyn Fn(&MeasuredCycle) -> &[f64]| {
-        let all = cycles.iter().flat_map(|&cycle| of(cycle).iter().copied());
-        let [low, high] = all
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
+        let [low, high] = ends(cycles.iter().flat_map(|&cycle| of(cycle).iter().copied()));
         high - low
     };
     let (along, up) = (range(&|cycle| &cycle.displacement), range(&|cycle| &cycle.force));

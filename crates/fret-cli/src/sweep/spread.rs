@@ -63,10 +63,13 @@ pub struct QuantityRecord {
     pub sobol_indices: Option<BTreeMap<String, Sensitivity>>,
 }
 
+/// A number of statistics, by its name.
+type Read = (&'static str, fn(&Statistics) -> f64);
+
 impl QuantityRecord {
     /// What is told of numbers by their names, the first column under a head of its own; a name in words as it is `called`.
     pub fn columns<'a>(head: String, called: impl Fn(&str) -> String + 'a) -> Columns<'a, (String, Self)> {
-        let reads: [(&str, fn(&Statistics) -> f64); 5] = [
+        let reads: [Read; 5] = [
             ("mean", |of| of.mean),
             ("deviation", |of| of.deviation),
             ("2.5 %", |of| of.quantiles[0]),
@@ -159,7 +162,7 @@ impl<'a> Spread<'a> {
     fn part(&self, point: &AtPoint) -> String {
         let varying = || point.quantities.iter().filter(|(_, of)| of.statistics.varies(ROUNDING));
         let samples = varying().map(|(_, of)| of.statistics.count).max().unwrap_or(0);
-        let columns = QuantityRecord::columns(format!("{samples} samples"), |name| name.to_owned());
+        let columns = QuantityRecord::columns(format!("{samples} samples"), str::to_owned);
         let mut table = columns.text(&WIDTHS, None, varying());
         if self.design.indices {
             table.push_str("\nSobol' indices, first order and total\n");

@@ -4,7 +4,7 @@ use fret_core::history::CycleRecord;
 use maud::{Markup, html};
 
 use crate::drawing::chart::{Chart, Curve};
-use crate::drawing::scale::Label;
+use crate::drawing::scale::{Label, ends};
 use crate::report::Measured;
 use crate::report::html::{chapter, side_by_side};
 use crate::report::overview::Overview;
@@ -38,10 +38,7 @@ pub fn cycles(view: &Overview<'_>) -> Markup {
     let reads: [fn(&CycleRecord) -> f64; 2] =
         [|cycle| cycle.force_amplitude, |cycle| cycle.displacement_amplitude];
     for ((name, kind), value) in amplitudes.into_iter().zip(reads) {
-        let values: Vec<f64> = cycles.iter().map(value).collect();
-        let [low, high] = values
-            .iter()
-            .fold([f64::INFINITY, 0.0_f64], |[low, high], value| [low.min(*value), high.max(*value)]);
+        let [low, high] = ends(cycles.iter().map(value));
         if high - low > SEEN * high {
             figures.push(chart(name, kind, &value).figure(&format!("{name} of each cycle.")));
         }

@@ -13,7 +13,7 @@ use crate::drawing::chart::{Chart, Curve, Stroke, joined};
 use crate::drawing::figure_of;
 use crate::drawing::frame::Frame;
 use crate::drawing::map::Map;
-use crate::drawing::scale::Label;
+use crate::drawing::scale::{Label, ends};
 use crate::failure::Failure;
 use crate::report::Measured;
 use crate::report::html::{chapter, percent};
@@ -109,10 +109,7 @@ impl Ground<'_> {
         let what = format!("{} over {}", labels[1].name, labels[0].name);
         let here = points.get(now.increment).copied().unwrap_or([f64::NAN; 2]);
         let curves = loop_curves(self.view).into_iter().map(|curve| Curve { name: None, ..curve }).collect();
-        let range = |axis: usize| {
-            let all = || points.iter().map(|point| point[axis]);
-            Some([all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)])
-        };
+        let range = |axis: usize| Some(ends(points.iter().map(|point| point[axis])));
         Chart {
             here: Some((here, "here")),
             ranges: [range(0), range(1)],

@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::view::{View, spoken};
 use crate::drawing::chart::{Chart, Curve, Stroke};
+use crate::drawing::scale::ends;
 use crate::figures::capitalised;
 use crate::report::html::{chapter, side_by_side};
 use crate::sweep::columns::SummaryColumn;
@@ -60,34 +61,26 @@ pub fn curves(view: &View) -> Markup {
 }
 
 fn varies(column: &SummaryColumn) -> bool {
-    let finite = || column.numbers().into_iter().filter(|value| value.is_finite());
-    let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
+    let [low, high] = ends(column.numbers());
     high - low > ROUNDING * low.abs().max(high.abs())
 }
 
 fn drawn(view: &View, column: &SummaryColumn, across: usize, others: &[usize]) -> Markup {
     let numbers = column.numbers();
-    let mut groups: Vec<(String, Vec<[f64; 2]>)> = Vec::new();
-    for (point, number) in numbers.iter().enumerate() {
-        let name = view.place(others, point);
-        let at = [view.position(across, point), *number];
-        match groups.iter_mut().find(|(known, _)| *known == name) {
-            Some((_, points)) => points.push(at),
-            None => groups.push((name, vec![at])),
-        }
-    }
+    let mut groups = view.groups(others);
     let all = groups.len();
     groups.truncate(MOST_CURVES);
     let mut curves = Vec::new();
-    for (place, (name, mut points)) in groups.into_iter().enumerate() {
+    for (place, (name, points)) in groups.into_iter().enumerate() {
+        let at = |point| [view.position(across, point), numbers[point]];
+        let mut points: Vec<[f64; 2]> = points.into_iter().map(at).collect();
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let name = Some(name).filter(|name| !name.is_empty());
         let line = Curve { colour: place % COLOURS, ..Curve::plain(points) };
         curves.push(Curve { name, ..line.clone() });
         curves.push(line.drawn(Stroke::Dots));
     }
-    let finite = || numbers.iter().copied().filter(|value| value.is_finite());
-    let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(0.0, f64::max));
+    let [low, high] = ends(numbers.iter().copied());
     let chart = Chart {
         logarithmic: low > 0.0 && high > 30.0 * low,
         ..Chart::new(&spoken(&column.name), [view.key_label(across), view.label_of(column)], curves)

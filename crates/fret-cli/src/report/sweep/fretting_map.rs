@@ -7,7 +7,7 @@ use super::view::View;
 use crate::drawing::Drawing;
 use crate::drawing::figure_of;
 use crate::drawing::frame::{Frame, room_for};
-use crate::drawing::scale::Axis;
+use crate::drawing::scale::{Axis, ends};
 
 const WIDTH: f64 = 480.0;
 const HEIGHT: f64 = 340.0;
@@ -32,14 +32,7 @@ pub fn maps(view: &View) -> Option<Markup> {
     let axes = view.axes();
     let [across, up] = chosen(view, &axes)?;
     let others: Vec<usize> = axes.into_iter().filter(|axis| *axis != across && *axis != up).collect();
-    let mut groups: Vec<(String, Vec<usize>)> = Vec::new();
-    for point in 0..view.record.points.len() {
-        let name = view.place(&others, point);
-        match groups.iter_mut().find(|(known, _)| *known == name) {
-            Some((_, points)) => points.push(point),
-            None => groups.push((name, vec![point])),
-        }
-    }
+    let mut groups = view.groups(&others);
     let all = groups.len();
     groups.truncate(MOST_MAPS);
     Some(html! {
@@ -61,13 +54,11 @@ fn chosen(view: &View, axes: &[usize]) -> Option<[usize; 2]> {
 /// The axis of a key, over all points of the sweep.
 fn axis_of(view: &View, key: usize, ticks: usize) -> Axis {
     let values = || (0..view.record.points.len()).map(|point| view.position(key, point));
-    let [low, high] =
-        values().fold([f64::INFINITY, 0.0], |[low, high], value| [low.min(value), f64::max(high, value)]);
+    let [low, high] = ends(values());
     if low > 0.0 && high > WIDE * low {
         return Axis::logarithmic(values(), 6);
     }
     // points on the frame would be cut in halves
-    let [low, high] = [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)];
     let margin = 0.06 * (high - low);
     Axis::linear([low - margin, high + margin].into_iter(), ticks)
 }

@@ -159,6 +159,19 @@ impl View {
         keys.iter().map(one).collect::<Vec<_>>().join(", ")
     }
 
+    /// The points by their values along some keys, in words.
+    pub fn groups(&self, keys: &[usize]) -> Vec<(String, Vec<usize>)> {
+        let mut groups: Vec<(String, Vec<usize>)> = Vec::new();
+        for point in 0..self.record.points.len() {
+            let name = self.place(keys, point);
+            match groups.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, points)) => points.push(point),
+                None => groups.push((name, vec![point])),
+            }
+        }
+        groups
+    }
+
     /// The sliding condition of a point: of its last cycle, or at its end; `unsolved` of one without answer.
     pub fn condition(&self, point: usize) -> &str {
         let word = |name: &str| self.column(name).and_then(|column| column.values[point].as_str());
