@@ -98,3 +98,12 @@ fn every_example_is_a_good_case_and_names_its_schema() {
         }
     }
 }
+
+#[test]
+fn a_plan_of_a_case_without_a_title_is_called_by_its_file() {
+    let bench = Bench::new("plan-title");
+    bench.file("ball.toml", &SPHERE.replace("title = \"a small sphere\"", ""));
+    let answer = bench.fret(&["plan", "ball.toml"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert!(answer.out.starts_with("ball\n\n"), "{}", answer.out);
+}

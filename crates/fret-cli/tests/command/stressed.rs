@@ -157,3 +157,22 @@ fn a_compression_is_not_called_the_largest_peel() {
     let peel = answer.out.lines().find(|line| line.trim_start().starts_with("peel")).unwrap();
     assert!(peel.ends_with("none: compression everywhere"), "{}", answer.out);
 }
+
+/// Two stages, 3 increments and two cycles of 8: 19 in all, two of them ends. With `every` there is nothing to say.
+#[test]
+fn only_the_ends_of_stages_are_kept_unless_the_case_says_more_and_that_is_told() {
+    let bench = Bench::new("stress-stage-ends");
+    bench.file("more.toml", SPHERE).file("ends.toml", &SPHERE.replace("every = 5", ""));
+    let told = "kept at the ends of the stages alone (2 of 19 increments): [output] every = 1";
+    for (case, is_told) in [("ends", true), ("more", false)] {
+        let file = format!("{case}.toml");
+        assert_eq!(bench.fret(&["run", &file, "--out", case, "--quiet"]).code, Some(0));
+        let answer = bench.fret(&["stress", case, "--depths", "0,20e-6"]);
+        assert_eq!(answer.code, Some(0), "{}", answer.err);
+        assert_eq!(answer.out.contains(told), is_told, "{}", answer.out);
+        let record: Value = serde_json::from_str(&bench.text(&format!("{case}/stress/stress.json"))).unwrap();
+        assert_eq!(record.get("stage_ends_alone").is_some(), is_told);
+        assert_eq!(bench.fret(&["report", case]).code, Some(0));
+        assert_eq!(bench.text(&format!("{case}/report.html")).contains(told), is_told);
+    }
+}
