@@ -913,7 +913,7 @@ class Grid(TypedDict):
     """
     size: Size
     """
-    Side lengths along x and y, or "auto": chosen so that the contact fits with a margin. A single number in a line contact.
+    Side lengths along x and y [length], or "auto": chosen so that the contact fits with a margin. A single number in a line contact.
     """
 
 
@@ -1004,7 +1004,7 @@ class Material(TypedDict):
     """
     residual_stress: NotRequired[Residual]
     """
-    Residual stress, as of a coating; below the last row of a table it stays as it is there.
+    Residual stress [pressure], as of a coating; below the last row of a table it stays as it is there.
     """
     thermal_conductivity: NotRequired[float]
     """

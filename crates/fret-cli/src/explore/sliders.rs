@@ -1,5 +1,6 @@
 //! Numbers of a case that can be dragged: moduli, thicknesses, friction, radii, loads; and how far.
 
+use fret_core::model::controls::{Kind, NORMAL, ways};
 use serde::Serialize;
 use toml::{Table, Value};
 
@@ -20,8 +21,8 @@ enum Reach {
 /// Last word of a key, how far.
 type Row = (&'static str, Reach);
 
-/// What can be dragged in a body, a profile, the friction, a stage.
-const ROWS: [Row; 22] = [
+/// What can be dragged in a body, a profile, the friction; of a stage all controls can.
+const ROWS: [Row; 11] = [
     ("young", Reach::Factor(5.0)),
     ("poisson", Reach::Between(0.0, 0.5)),
     ("thickness", Reach::Factor(8.0)),
@@ -30,18 +31,7 @@ const ROWS: [Row; 22] = [
     ("radius", Reach::Factor(4.0)),
     ("radius_x", Reach::Factor(4.0)),
     ("radius_y", Reach::Factor(4.0)),
-    ("half_width", Reach::Factor(3.0)),
-    ("tip_radius", Reach::Factor(4.0)),
     ("half_angle", Reach::Between(20.0, 88.0)),
-    ("normal_force", Reach::Factor(3.0)),
-    ("approach", Reach::Factor(3.0)),
-    ("tangential_force", Reach::Times(2.5)),
-    ("shift", Reach::Times(3.0)),
-    ("actuator", Reach::Times(3.0)),
-    ("bulk_stress", Reach::Times(2.5)),
-    ("upper_bulk_stress", Reach::Times(2.5)),
-    ("twist_moment", Reach::Times(2.5)),
-    ("twist", Reach::Times(3.0)),
     ("normal_stiffness", Reach::Factor(10.0)),
     ("shear_stiffness", Reach::Factor(10.0)),
 ];
@@ -135,7 +125,14 @@ fn look(value: &Value, key: &str, found: &mut Vec<Slider>) {
 
 fn slider(key: &str, value: f64) -> Option<Slider> {
     let word = *words_of(key).last()?;
-    let (_, reach) = ROWS.into_iter().find(|(name, _)| *name == word)?;
+    let known = ROWS.into_iter().find(|(name, _)| *name == word).map(|(_, reach)| reach);
+    let reach = known.or_else(|| {
+        ways().find(|(_, way)| way.name == word).map(|(row, way)| match (row.freedom, way.kind) {
+            (NORMAL, _) => Reach::Factor(3.0),
+            (_, Kind::Force) => Reach::Times(2.5),
+            _ => Reach::Times(3.0),
+        })
+    })?;
     let [low, high] = match reach {
         _ if !value.is_finite() => return None,
         Reach::Factor(factor) if value > 0.0 => [value / factor, value * factor],

@@ -16,6 +16,9 @@ use crate::failure::Failure;
 use crate::study::record::{LevelRecord, LineRecord, StudyRecord, UnsolvedRecord};
 use crate::study::table::{ErrorColumn, columns, increments, kind_name};
 
+/// Curves of a chart, at the most: each has a colour of its own.
+const COLOURS: usize = 6;
+
 /// The answer of a study, which marks its folder.
 pub const STUDY: &str = "study.json";
 
@@ -81,11 +84,11 @@ fn refined(study: &StudyRecord, line: &LineRecord) -> Markup {
             let at = |level: &LevelRecord| Some([of(level), column.of(level)[0]?]);
             let mut points: Vec<[f64; 2]> = levels.iter().filter_map(at).collect();
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            let line = Curve::line(points, column.name, place % 6);
+            let line = Curve::line(points, column.name, place);
             let dots = Curve { name: None, ..line.clone() }.drawn(Stroke::Dots);
             [line, dots]
         };
-        known.iter().enumerate().flat_map(curve).collect()
+        known.iter().take(COLOURS).enumerate().flat_map(curve).collect()
     };
     let figure = |axis: Label, of: &dyn Fn(&LevelRecord) -> f64, caption: &str| {
         let axes = [axis, Label::plain("relative error")];

@@ -1,60 +1,55 @@
-//! What kind of quantity a dotted key of a case is: those of the controls stand in their own table, all others here.
+//! What kind of quantity a dotted key of a case is: its description says so in brackets, as in "Thickness [length], positive".
 
-use fret_core::model::controls::ways;
+use std::sync::OnceLock;
+
+use serde_json::Value;
 
 use super::key::words_of;
 
-/// Last words of keys that have a unit, and its kind.
-const KINDS: [(&str, &str); 32] = [
-    ("size", "length"),
-    ("datum", "length"),
-    ("thickness", "length"),
-    ("radius", "length"),
-    ("radius_x", "length"),
-    ("radius_y", "length"),
-    ("flat_radius", "length"),
-    ("edge_radius", "length"),
-    ("crown_radius", "length"),
-    ("tip_radius", "length"),
-    ("length", "length"),
-    ("length_x", "length"),
-    ("length_y", "length"),
-    ("flat_length", "length"),
-    ("amplitude", "length"),
-    ("wavelength_x", "length"),
-    ("wavelength_y", "length"),
-    ("half_width", "length"),
-    ("critical_distance", "length"),
-    ("short_cutoff", "length"),
-    ("long_cutoff", "length"),
-    ("outflow_length", "length"),
-    ("young", "pressure"),
-    ("max_shear", "pressure"),
-    ("yield_strength", "pressure"),
-    ("hardness", "pressure"),
-    ("residual_stress", "pressure"),
-    ("wear_coefficient", "1/pressure"),
-    // Of debris.
-    ("stiffness", "pressure"),
-    // Of an interface; of the machine below.
-    ("normal_stiffness", "pressure/length"),
-    ("shear_stiffness", "pressure/length"),
-    ("tangential_stiffness", "force/length"),
-];
+/// Words of kinds of quantities whose units follow from those of a case.
+const WORDS: [&str; 6] = ["length", "force", "pressure", "rad", "x", "sqrt"];
 
 /// The kind of a key's quantity, as in `force x length`; `None` where it has no unit, or its author's alone.
 pub fn kind_of(key: &str) -> Option<&'static str> {
+    static SCHEMA: OnceLock<Value> = OnceLock::new();
+    let schema = SCHEMA.get_or_init(fret_core::case::schema);
     let words = words_of(key);
-    let last = *words.last()?;
-    match words[..] {
-        _ if words.contains(&"parameters") => None,
-        ["rig", "normal_stiffness", ..] => Some("force/length"),
-        ["wear", "coefficient"] => Some("1/pressure"),
-        _ => {
-            let control = ways().find(|(_, way)| way.name == last).map(|(_, way)| way.unit);
-            control.or_else(|| KINDS.iter().find(|(word, _)| *word == last).map(|(_, kind)| *kind))
+    if words.contains(&"parameters") {
+        return None;
+    }
+    let mut here = vec![schema];
+    for (place, word) in words.iter().enumerate() {
+        let mut found = Vec::new();
+        here.iter().for_each(|node| entries(schema, node, word, &mut found));
+        match found.is_empty() {
+            // the name of an entry of a list is none of its keys
+            true if place + 1 < words.len() => {}
+            _ => here = found,
         }
     }
+    here.iter().find_map(|node| in_brackets(node.get("description")?.as_str()?))
+}
+
+/// The entries of a name in a node of the schema: in what it refers to, in its alternatives, in the items of its list.
+fn entries<'a>(schema: &'a Value, node: &'a Value, name: &str, found: &mut Vec<&'a Value>) {
+    found.extend(node.get("properties").and_then(|properties| properties.get(name)));
+    let target = node.get("$ref").and_then(Value::as_str).and_then(|path| path.rsplit('/').next());
+    let referred = target.and_then(|target| schema.get("$defs")?.get(target));
+    let alternatives = ["anyOf", "oneOf", "allOf"].into_iter().filter_map(|word| node.get(word)?.as_array());
+    for inner in alternatives.flatten().chain(node.get("items")).chain(referred) {
+        entries(schema, inner, name, found);
+    }
+}
+
+/// The first kind that a description has in brackets, and that the units of a case say something of.
+fn in_brackets(description: &str) -> Option<&str> {
+    let bracketed = description.split('[').skip(1).filter_map(|part| part.split_once(']'));
+    let has_unit = |kind: &&str| {
+        let mut words =
+            kind.split(|letter: char| !letter.is_alphabetic()).filter(|word| !word.is_empty()).peekable();
+        words.peek().is_some() && words.all(|word| WORDS.contains(&word))
+    };
+    bracketed.map(|(kind, _)| kind).find(has_unit)
 }
 
 #[cfg(test)]
@@ -74,11 +69,16 @@ mod tests {
             ("rig.tangential_stiffness.0", Some("force/length")),
             ("lower.coatings.0.interface.normal_stiffness", Some("pressure/length")),
             ("lower.substrate.young", Some("pressure")),
+            ("lower.substrate.residual_stress", Some("pressure")),
+            ("lower.substrate.fatigue.crack.initial_length", Some("length")),
             ("profile.wave.amplitude", Some("length")),
             ("profile.formula.parameters.radius", None),
+            ("grid.size.0", Some("length")),
+            ("grid.cells", None),
             ("friction.coefficient", None),
             ("wear.coefficient", Some("1/pressure")),
             ("wear.debris.stiffness", Some("pressure")),
+            ("wear.limit", Some("length")),
             ("lower.substrate.poisson", None),
         ] {
             assert_eq!(kind_of(key), kind, "{key}");

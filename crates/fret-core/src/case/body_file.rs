@@ -169,7 +169,7 @@ pub(super) struct MaterialFile {
     pub young: At<f64>,
     /// Poisson's ratio, above -1, at most 0.5.
     pub poisson: At<f64>,
-    /// Residual stress, as of a coating; below the last row of a table it stays as it is there.
+    /// Residual stress [pressure], as of a coating; below the last row of a table it stays as it is there.
     pub residual_stress: Option<At<ResidualFile>>,
     /// Constants of its material.
     #[table(flatten)]

@@ -112,7 +112,7 @@ pub(super) struct UnitsFile {
 pub(super) struct GridFile {
     /// Number of cells along x and y; a single number makes a line contact: plane strain across it, all loads per unit length.
     pub cells: At<CellsFile>,
-    /// Side lengths along x and y, or "auto": chosen so that the contact fits with a margin. A single number in a line contact.
+    /// Side lengths along x and y [length], or "auto": chosen so that the contact fits with a margin. A single number in a line contact.
     pub size: At<SizeFile>,
     /// Depth below the load of the point that approach and shift of a line contact are relative to [length], in each body that has
     /// an elastic base. Default: the size of the grid.

@@ -1,6 +1,7 @@
 //! The question as it was understood, and which simplifications were used.
 
 use fret_core::case::{Course, Path, Stage, StageControl};
+use fret_core::model::controls::{Kind, NORMAL, ways};
 use fret_core::model::{
     Base, Body, CellValues, Coating, CoulombFriction, Dimension, ElasticMaterial, EvolutionDriver,
     EvolutionLaw, HeightsSummary, MapSummary, Profile, WearLaw, WearRule,
@@ -243,45 +244,35 @@ fn evolution(view: &Overview<'_>) -> Option<String> {
     Some(format!("evolves with the {over} of each cell: {law}{jumps}"))
 }
 
+/// What pages call by other words than cases.
+const CALLED: [(&str, &str); 3] =
+    [("twist_moment", "torsional_moment"), ("twist", "rotation"), ("shift", "displacement")];
+
+/// What a stage prescribes in a degree of freedom, by its row of the table of controls; none of one that stays at zero.
+fn control(view: &Overview<'_>, freedom: usize, control: &StageControl) -> Option<String> {
+    let (kind, mut run) = match control {
+        StageControl::Force(run) => (Kind::Force, run.clone()),
+        StageControl::Motion(run) => (Kind::Motion, run.clone()),
+        StageControl::FarEnd(run) => (Kind::FarEnd, run.clone()),
+        StageControl::Rate(run) => (Kind::Rate, run.clone()),
+    };
+    let is_gap = freedom == NORMAL && kind == Kind::Motion && view.results.case().counts_mean_gap();
+    if is_gap {
+        // a case prescribes the gap; a stage holds how far that is below the mean plane
+        let table = &view.results.table;
+        run = run.below(table.at("approach", 0) + table.at("mean_gap", 0));
+    }
+    let kind = if is_gap { Kind::MeanGap } else { kind };
+    let (row, way) = ways().find(|(row, way)| way.kind == kind && row.freedoms().contains(&freedom))?;
+    let (name, _) = row.columns(way).find(|(_, of)| *of == freedom)?;
+    let name = CALLED.iter().fold(name, |name, (word, called)| name.replace(word, called));
+    Some(format!("{} {}", name.replace('_', " "), path(view, &run, way.unit)?))
+}
+
 fn stage(view: &Overview<'_>, stage: &Stage<MapSummary>) -> Markup {
-    let mut parts: Vec<String> = Vec::new();
-    let mut add =
-        |control: &Option<StageControl>, [force, motion]: [&str; 2], [of_force, of_motion]: [&str; 2]| {
-            parts.extend(control.as_ref().and_then(|control| {
-                let (name, unit) = match control {
-                    StageControl::Force(_) => (force.to_owned(), of_force),
-                    StageControl::Motion(_) => (motion.to_owned(), of_motion),
-                    StageControl::FarEnd(_) => (format!("actuator, {motion}"), of_motion),
-                    StageControl::Rate(_) if of_motion == "rad" => ("spin".to_owned(), "rad/length"),
-                    StageControl::Rate(_) => (motion.replace("displacement", "creepage"), "-"),
-                };
-                Some(format!("{name} {}", path(view, control.path(), unit)?))
-            }));
-        };
-    match &stage.normal {
-        Some(StageControl::Motion(path)) if view.results.case().counts_mean_gap() => {
-            // a case prescribes the gap; a stage holds how far that is below the mean plane
-            let plane = view.results.table.at("approach", 0) + view.results.table.at("mean_gap", 0);
-            let gap = StageControl::Motion(path.clone().below(plane));
-            add(&Some(gap), ["", "mean gap"], ["", "length"]);
-        }
-        normal => add(normal, ["normal force", "approach"], ["force", "length"]),
-    }
-    for (axis, name) in ["x", "y"].into_iter().enumerate() {
-        let names = [format!("tangential force {name}"), format!("displacement {name}")];
-        add(&stage.tangential[axis], [&names[0], &names[1]], ["force", "length"]);
-        let rolled = format!("rolled along {name}");
-        add(&stage.roll[axis], [&rolled, &rolled], ["length", "length"]);
-    }
-    add(&stage.twist, ["torsional moment", "rotation"], ["force x length", "rad"]);
-    for (axis, name) in ["x", "y"].into_iter().enumerate() {
-        let names = [format!("tilt moment {name}"), format!("tilt {name}")];
-        add(&stage.tilt[axis], [&names[0], &names[1]], ["force x length", "rad"]);
-        for (body, which) in ["lower", "upper"].into_iter().enumerate() {
-            let stress = format!("bulk stress {name} of the {which} body");
-            add(&stage.bulk_stress[body][axis], [&stress, &stress], ["pressure", "pressure"]);
-        }
-    }
+    let controls = stage.by_freedom().into_iter().enumerate();
+    let told = controls.filter_map(|(freedom, of)| control(view, freedom, of?));
+    let mut parts: Vec<String> = told.collect();
     if stage.steady {
         let [x, y] = stage.roll_direction.map(given);
         parts.push(format!("rolled on along [{x}, {y}] until steady"));
