@@ -20,11 +20,12 @@ pub fn kind_of(key: &str) -> Option<&'static str> {
     let mut here = vec![schema];
     for (place, word) in words.iter().enumerate() {
         let mut found = Vec::new();
-        here.iter().for_each(|node| entries(schema, node, word, &mut found));
-        match found.is_empty() {
-            // the name of an entry of a list is none of its keys
-            true if place + 1 < words.len() => {}
-            _ => here = found,
+        for node in &here {
+            entries(schema, node, word, &mut found);
+        }
+        // the name of an entry of a list is none of its keys
+        if !found.is_empty() || place + 1 == words.len() {
+            here = found;
         }
     }
     here.iter().find_map(|node| in_brackets(node.get("description")?.as_str()?))
