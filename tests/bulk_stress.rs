@@ -423,7 +423,7 @@ fn random_case(random: &mut Random, number: usize) -> String {
 /// Far from the contact, and in a layer of its own stiffness, the stress is that of the bulk under one strain, and what is residual.
 #[test]
 fn stress_below_is_that_of_the_contact_and_of_bulk_and_residual_stress() {
-    use fret_core::model::{Coating, HalfSpace, ResidualLayer, ResidualStress};
+    use fret_core::model::{Coating, HalfSpace, Periodicity, ResidualLayer, ResidualStress};
     use fret_core::subsurface::{EvenStress, LoadedSurface, depth_points, survey};
     let [soft, hard] = [(1.0, 0.3), (3.0, 0.2)].map(|(young, nu)| ElasticMaterial::new(young, nu).unwrap());
     let coating = Coating::new(hard, 0.01).unwrap();
@@ -459,7 +459,7 @@ fn stress_below_is_that_of_the_contact_and_of_bulk_and_residual_stress() {
         let below = if line { [2.0, 0.6] } else { [2.0, 1.0] };
         let points = depth_points(&body, &[0.0, 0.01, 0.03]).unwrap();
         let mut plain = Vec::new();
-        survey(&body, &grid, false, &points, &surfaces, |point, surface, field| {
+        survey(&body, &grid, Periodicity::NONE, &points, &surfaces, |point, surface, field| {
             if surface == 0 {
                 plain = field.components.to_vec();
                 return true;

@@ -34,6 +34,10 @@ fn runs_of_every_kind_hold_their_laws() {
         "coatings = [{ thickness = 0.1, young = 0.2, poisson = 0.1 }]\nsubstrate = { young = 3.0, poisson = 0.45 }",
     );
     let periodic = |sphere: &Sphere| pulled(sphere).replace("[upper]", "periodic = true\n[upper]");
+    let in_a_row = |sphere: &Sphere, axis: &str| {
+        let row = format!("periodic = \"{axis}\"\n[upper]");
+        pulled(sphere).replace("[upper]", &row)
+    };
     let scale = rigid.approach();
     let moved = |sphere: &Sphere, motion: &str| {
         format!("{}[[load]]\napproach = {scale:e}\nincrements = 2\n{motion}", sphere.head())
@@ -78,7 +82,7 @@ fn runs_of_every_kind_hold_their_laws() {
     let map = Array2::from_shape_fn((24, 24), |(i, j)| if (i + j) % 7 < 3 { 0.1 } else { 0.02 * i as f64 });
     let mapped = moved(&rigid, &there_and_back).replace("coefficient = 0.3", "map = { array = 0 }");
     let automatic = pulled(&rigid).replace("increments = 3", "increments = \"auto\"");
-    let cases: [(&str, String, &[Array2<f64>]); 18] = [
+    let cases: [(&str, String, &[Array2<f64>]); 20] = [
         ("plain", pulled(&rigid), &[]),
         ("coated", pulled(&coated), &[]),
         ("equal bodies", pulled(&equal), &[]),
@@ -86,6 +90,8 @@ fn runs_of_every_kind_hold_their_laws() {
         ("frictionless", smooth.pressed(1.0, 3, "linear"), &[]),
         ("periodic, coupled", periodic(&coated), &[]),
         ("periodic, equal bodies", periodic(&equal), &[]),
+        ("periodic in y, coupled", in_a_row(&coated, "y"), &[]),
+        ("periodic in x, equal bodies", in_a_row(&equal, "x"), &[]),
         ("by approach and shift", moved(&coated, &there_and_back), &[]),
         ("by approach and shift, equal bodies", moved(&equal, &there_and_back), &[]),
         ("twisted", moved(&coated, &twisted), &[]),

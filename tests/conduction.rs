@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use fret_core::case::Case;
 use fret_core::conduction::{Potential, contact_resistance, surface_temperature};
-use fret_core::model::{ConductingLayer, Conductor, SurfaceGrid};
+use fret_core::model::{ConductingLayer, Conductor, Periodicity, SurfaceGrid};
 use fret_validation::keeping;
 use ndarray::Array2;
 
@@ -82,7 +82,8 @@ fn hertzian(r: f64) -> f64 {
 
 fn rise(conductor: &Conductor, grid: &SurfaceGrid, flux: &Array2<f64>) -> Array2<f64> {
     let contact = flux.mapv(|flux| flux > 0.0);
-    let found = surface_temperature([Some(conductor), None], grid, false, flux, &contact).unwrap();
+    let found =
+        surface_temperature([Some(conductor), None], grid, Periodicity::NONE, flux, &contact).unwrap();
     found.rise[0].clone().unwrap()
 }
 
@@ -148,7 +149,8 @@ fn homogeneous_bodies_share_heat_by_their_conductivities_whatever_the_contact() 
         Array2::from_shape_fn((24, 20), |(i, j)| if (i * 7 + j * 5) % 3 == 0 { 1.0 + i as f64 } else { 0.0 });
     let contact = Array2::from_shape_fn((24, 20), |(i, j)| (i + j) % 4 != 1);
     let [lower, upper] = [homogeneous(3.0), homogeneous(1.0)];
-    let found = surface_temperature([Some(&lower), Some(&upper)], &grid, false, &heat, &contact).unwrap();
+    let found =
+        surface_temperature([Some(&lower), Some(&upper)], &grid, Periodicity::NONE, &heat, &contact).unwrap();
     // both responses are one function of place: the parts are 3/4 and 1/4 in every cell, to the solver's 1e-11
     assert!((found.lower_fraction().unwrap() - 0.75).abs() < 1e-10);
     for (cell, part) in found.into_lower.indexed_iter() {
@@ -164,7 +166,8 @@ fn layered_bodies_have_one_temperature_in_contact_and_lose_no_heat() {
     let heat = cell_means(&grid, 4, disc);
     let contact = heat.mapv(|heat| heat > 0.0);
     let [lower, upper] = [coated(0.2, 0.3, 5.0), coated(40.0, 0.1, 1.0)];
-    let found = surface_temperature([Some(&lower), Some(&upper)], &grid, false, &heat, &contact).unwrap();
+    let found =
+        surface_temperature([Some(&lower), Some(&upper)], &grid, Periodicity::NONE, &heat, &contact).unwrap();
     let [one, other] = found.rise.each_ref().map(|rise| rise.as_ref().unwrap());
     let largest = found.largest().0;
     let mut outside = 0.0_f64;
@@ -179,7 +182,7 @@ fn layered_bodies_have_one_temperature_in_contact_and_lose_no_heat() {
     }
     assert!(outside > 1e-3, "beside the contact each body has its own");
     // the fraction is that of the whole: with one body alone it is all or nothing
-    let alone = surface_temperature([None, Some(&upper)], &grid, false, &heat, &contact).unwrap();
+    let alone = surface_temperature([None, Some(&upper)], &grid, Periodicity::NONE, &heat, &contact).unwrap();
     assert!(alone.into_lower.iter().all(|flux| *flux == 0.0) && alone.rise[0].is_none());
 }
 
@@ -192,7 +195,8 @@ fn a_disc_resists_as_holm_says() {
     let resistance = |per_diameter: usize| {
         let grid = around_disc(per_diameter);
         let contact = cell_means(&grid, 1, disc).mapv(|inside| inside > 0.0);
-        let found = contact_resistance([Some(&lower), Some(&upper)], &grid, false, &contact).unwrap();
+        let found =
+            contact_resistance([Some(&lower), Some(&upper)], &grid, Periodicity::NONE, &contact).unwrap();
         // of the disc that has the area of the cells, so that the staircase counts little
         let area = contact.iter().filter(|inside| **inside).count() as f64 * grid.cell_area();
         found * (area / PI).sqrt()
@@ -242,7 +246,8 @@ fn resistance_is_barbers_inverse_of_the_incremental_stiffness_of_a_rough_contact
     let force = |history: &fret_core::History| history.steps[0].normal_force;
     let stiffness = (force(&far) - force(&near)) / (far.state.approach - near.state.approach);
     let [lower, upper] = case(0.012).conduction.electrical;
-    let found = contact_resistance([lower.as_ref(), upper.as_ref()], &near.grid, false, &contact).unwrap();
+    let found = contact_resistance([lower.as_ref(), upper.as_ref()], &near.grid, Periodicity::NONE, &contact)
+        .unwrap();
     let modulus = 1.0 / ((1.0 - 0.09) / 1.0 + (1.0 - 0.04) / 3.0);
     let exact = modulus * (2.0 + 5.0) / (2.0 * stiffness);
     // difference of forces that are solved to 1e-12, over a change of 1e-6
@@ -257,22 +262,22 @@ fn a_periodic_contact_adds_less_resistance_than_one_that_stands_alone() {
     let contact = cell_means(&grid, 1, disc).mapv(|inside| inside > 0.0);
     let body = homogeneous(2.0);
     let of = |periodic| contact_resistance([Some(&body), Some(&body)], &grid, periodic, &contact).unwrap();
-    let ratio = of(true) / of(false);
+    let ratio = of(Periodicity::BOTH) / of(Periodicity::NONE);
     let expected = (1.0 - 1.0 / (10.0 / PI.sqrt())).powf(1.5);
     assert!((ratio - expected).abs() < 0.02, "{ratio} {expected}");
     let all = contact.mapv(|_| true);
-    assert_eq!(contact_resistance([Some(&body), Some(&body)], &grid, true, &all).unwrap(), 0.0);
+    assert_eq!(contact_resistance([Some(&body), Some(&body)], &grid, Periodicity::BOTH, &all).unwrap(), 0.0);
 }
 
 #[test]
 fn what_has_no_steady_state_is_refused() {
     let body = homogeneous(1.0);
     let line = SurfaceGrid::line(16, 0.1).unwrap();
-    assert!(Potential::new([Some(&body), None], &line, false).is_err());
+    assert!(Potential::new([Some(&body), None], &line, Periodicity::NONE).is_err());
     let grid = SurfaceGrid::new([8, 8], [1.0, 1.0]).unwrap();
     let (none, heat) = (Array2::from_elem((8, 8), false), Array2::zeros((8, 8)));
-    assert!(surface_temperature([Some(&body), None], &grid, true, &heat, &none).is_err());
-    assert!(surface_temperature([None, None], &grid, false, &heat, &none).is_err());
-    assert!(contact_resistance([Some(&body), None], &grid, false, &none).is_err());
-    assert!(contact_resistance([Some(&body), Some(&body)], &grid, false, &none).is_err());
+    assert!(surface_temperature([Some(&body), None], &grid, Periodicity::BOTH, &heat, &none).is_err());
+    assert!(surface_temperature([None, None], &grid, Periodicity::NONE, &heat, &none).is_err());
+    assert!(contact_resistance([Some(&body), None], &grid, Periodicity::NONE, &none).is_err());
+    assert!(contact_resistance([Some(&body), Some(&body)], &grid, Periodicity::NONE, &none).is_err());
 }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use fret_core::history::History;
 use fret_core::kernel::{Components, line_coefficients};
 use fret_core::model::{
-    Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace, Interface, SurfaceGrid,
+    Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace, Interface, Periodicity, SurfaceGrid,
 };
 use fret_core::subsurface::{DepthOperator, DepthPoint, Tractions};
 use fret_validation::certifier::run_certified;
@@ -138,7 +138,8 @@ fn at_springs_tractions_pass_and_displacements_jump() {
     for periodic in [false, true] {
         let at = |layer: usize| {
             let point = DepthPoint { depth: 0.6, layer };
-            let mut operator = DepthOperator::new(&body, point, &grid, periodic, true, true).unwrap();
+            let mut operator =
+                DepthOperator::new(&body, point, &grid, Periodicity::Both(periodic), true, true).unwrap();
             let tractions = Tractions { pressure: p.view(), shear: Some([x.view(), y.view()]) };
             (operator.stress(&tractions), operator.displacement(&tractions).unwrap())
         };

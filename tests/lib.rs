@@ -2,6 +2,7 @@
 
 pub mod certifier;
 pub mod extreme_cases;
+pub mod limit;
 pub mod random;
 pub mod random_histories;
 pub mod shortcuts;

@@ -3,7 +3,7 @@
 use fret_core::analytic::{CattaneoLine, EffectiveModuli, HertzLine, SlidingCylinder};
 use fret_core::case::Case;
 use fret_core::history::{History, KeptFields};
-use fret_core::model::{ElasticMaterial, HalfSpace};
+use fret_core::model::{ElasticMaterial, HalfSpace, Periodicity};
 use fret_core::plan::Plan;
 use fret_core::study::{ClosedForm, Quantity};
 use fret_core::subsurface::largest::look;
@@ -326,7 +326,7 @@ fn stress_under_a_sliding_cylinder_follows_muskhelishvili() {
     };
     let places = cylinder.places();
     let mut worst = [0.0_f64; 4];
-    survey(&half_space, &history.grid, false, &points, &[surface], |point, _, field| {
+    survey(&half_space, &history.grid, Periodicity::NONE, &points, &[surface], |point, _, field| {
         let z = depths[point];
         for (i, x) in places.iter().enumerate() {
             // near the edges at the surface the roots are met in cells
@@ -435,7 +435,7 @@ fn the_tension_at_the_trailing_edge_under_shear_and_bulk_is_the_closed_form() {
         };
         let trailing = 2.0 * mu * p0 * (1.0 - ((a + e) - ((a + e).powi(2) - c * c).sqrt()) / a) + bulk;
         let (mut along, mut rim) = (0.0_f64, None);
-        survey(&half_space, &history.grid, false, &points, &[surface], |_, _, field| {
+        survey(&half_space, &history.grid, Periodicity::NONE, &points, &[surface], |_, _, field| {
             for (i, x) in cylinder.places().into_iter().enumerate() {
                 let edges = [-a, a, e - c, e + c];
                 if edges.iter().any(|edge| ((x - edge) / a).abs() < 0.05) {

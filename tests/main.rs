@@ -45,6 +45,7 @@ mod moving_surfaces;
 mod mutilated_cases;
 mod normal_counts;
 mod periodic;
+mod periodic_along_one_axis;
 mod periodic_sliding;
 mod public_cases;
 mod random_cases;

@@ -1,6 +1,6 @@
 //! Where a cycle is most severe: the search, against every cell evaluated on its own.
 
-use fret_core::model::{Base, Coating, ElasticMaterial, HalfSpace, SurfaceGrid};
+use fret_core::model::{Base, Coating, ElasticMaterial, HalfSpace, Periodicity, SurfaceGrid};
 use fret_core::subsurface::fatigue::{FatigueConstants, LayerConstants};
 use fret_core::subsurface::{EvenStress, LoadedSurface, Severity, depth_points, survey};
 use ndarray::Array2;
@@ -42,7 +42,7 @@ fn the_most_severe_cells_are_those_of_all_cells_one_by_one() {
         pool.install(|| {
             let all = (0..surfaces.len()).collect();
             let mut severity = Severity::new(&body, &constants, &points, (&surfaces, all), row);
-            survey(&body, &grid, false, &points, &surfaces, |point, surface, field| {
+            survey(&body, &grid, Periodicity::NONE, &points, &surfaces, |point, surface, field| {
                 severity.look(point, surface, field);
                 true
             })

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::fmt::Write as _;
 
-use fret_core::model::{Base, Coating, ElasticMaterial, HalfSpace, SurfaceGrid};
+use fret_core::model::{Base, Coating, ElasticMaterial, HalfSpace, Periodicity, SurfaceGrid};
 use fret_core::subsurface::largest::look;
 use fret_core::subsurface::{DepthOperator, DepthPoint, Measure, StressField, Tractions, depth_points};
 use fret_validation::{Sphere, keeping, solved};
@@ -23,7 +23,7 @@ fn stress(
     body: &HalfSpace,
     point: DepthPoint,
     grid: &SurfaceGrid,
-    periodic: bool,
+    periodic: Periodicity,
     pressure: &Array2<f64>,
     shear: Option<[&Array2<f64>; 2]>,
 ) -> StressField {
@@ -79,7 +79,7 @@ fn cells_agree_with_an_independent_integration_over_waves() {
         let fields: Vec<StressField> = (0..3)
             .map(|load| {
                 let of = |n: usize| if load == n { &unit } else { &zero };
-                stress(&half_space, point, &grid, false, of(0), Some([of(1), of(2)]))
+                stress(&half_space, point, &grid, Periodicity::NONE, of(0), Some([of(1), of(2)]))
             })
             .collect();
         let mut worst = 0.0_f64;
@@ -171,7 +171,14 @@ fn axis_stresses_under_hertz_pressure_on_a_coating() {
         for (ratio, middle, above, below) in rows {
             let half_space = body(&[(ratio, 0.3, 1.0)], Some((1.0, 0.3)));
             let at = |depth: f64, layer: usize| {
-                let field = stress(&half_space, DepthPoint { depth, layer }, &grid, false, &pressure, None);
+                let field = stress(
+                    &half_space,
+                    DepthPoint { depth, layer },
+                    &grid,
+                    Periodicity::NONE,
+                    &pressure,
+                    None,
+                );
                 [on_axis(&field.components[2]), on_axis(&field.components[0])]
             };
             let (found_middle, found_above, found_below) = (at(0.5, 0), at(1.0, 0), at(1.0, 1));
@@ -205,13 +212,13 @@ fn homogeneous_axis_stresses_follow_hertz_and_the_sliding_sphere() {
     let mut worst = 0.0_f64;
     for s in [0.25, 0.480_864_485_3, 1.0, 3.0] {
         let point = DepthPoint { depth: s, layer: 0 };
-        let normal = stress(&half_space, point, &grid, false, &pressure, None);
+        let normal = stress(&half_space, point, &grid, Periodicity::NONE, &pressure, None);
         let q = 1.0 + s * s;
         let zz = -1.0 / q;
         let rr = -((1.0 + nu) * (1.0 - s * (1.0 / s).atan()) - 0.5 / q);
         worst = worst.max((on_axis(&normal.components[2]) - zz).abs());
         worst = worst.max((on_axis(&normal.components[0]) - rr).abs());
-        let sliding = stress(&half_space, point, &grid, false, &zero, Some([&pressure, &zero]));
+        let sliding = stress(&half_space, point, &grid, Periodicity::NONE, &zero, Some([&pressure, &zero]));
         // axis shear of Hertz-distributed shear q0 along x (negative: the upper body pulls the surface along +x)
         let xz = -(1.0 - 1.5 * s * (1.0 / s).atan() + 0.5 * s * s / q);
         worst = worst.max((on_axis(&sliding.components[4]) - xz).abs());
@@ -235,7 +242,7 @@ fn surface_stresses_of_the_sliding_sphere() {
         let shear = hertz(cells, spacing);
         let zero = Array2::zeros((cells, cells));
         let point = DepthPoint { depth: 0.0, layer: 0 };
-        let field = stress(&half_space, point, &grid, false, &zero, Some([&shear, &zero]));
+        let field = stress(&half_space, point, &grid, Periodicity::NONE, &zero, Some([&shear, &zero]));
         assert!(field.components[2].iter().all(|zz| zz.abs() < 1e-13));
         assert!(field.components[4].iter().zip(&shear).all(|(xz, q)| (xz + q).abs() < 1e-13));
         (grid, field)
@@ -282,7 +289,7 @@ fn tractions_are_continuous_across_interfaces_at_every_contrast_and_thickness() 
             // contact radius 1, thickness in contact radii
             let half_space = body(&[(contrast, 0.25, thickness)], Some((1.0, 0.35)));
             let grid = SurfaceGrid::new(cells, [0.1, 0.12]).unwrap();
-            for periodic in [false, true] {
+            for periodic in [false, true].map(Periodicity::Both) {
                 let [above, below] = [0, 1].map(|layer| {
                     let point = DepthPoint { depth: thickness, layer };
                     stress(&half_space, point, &grid, periodic, &pressure, Some([&x, &y]))
@@ -314,7 +321,7 @@ fn a_periodic_scene_carries_its_mean_and_meets_free_space_in_wide_periods() {
         let zero = Array2::zeros((cells, cells));
         let point = depth_points(&half_space, &[0.3]).unwrap()[0];
         let all = |periodic| stress(&half_space, point, &grid, periodic, &load, Some([&load, &zero]));
-        let (repeating, alone) = (all(true), all(false));
+        let (repeating, alone) = (all(Periodicity::BOTH), all(Periodicity::NONE));
         let sum = |field: &Array2<f64>| field.iter().sum::<f64>() / (cells * cells) as f64;
         let mean = sum(&load);
         assert!((sum(&repeating.components[2]) + mean).abs() < 1e-13);
@@ -355,7 +362,7 @@ fn a_cell_answers_like_the_cells_that_tile_it_at_every_contrast_and_depth() {
         {
             let point = DepthPoint { depth, layer };
             let by = |grid: &SurfaceGrid, load: &Array2<f64>| {
-                stress(&half_space, point, grid, false, load, Some([load, load]))
+                stress(&half_space, point, grid, Periodicity::NONE, load, Some([load, load]))
             };
             let (whole, parts) = (by(&coarse, &one), by(&fine, &nine));
             let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
@@ -387,12 +394,15 @@ fn a_moved_operator_gives_the_bits_of_a_new_one_in_any_number_of_threads() {
     let points = depth_points(&half_space, &[0.0, 0.3, 0.9, 0.4, 0.1]).unwrap();
     let fresh: Vec<StressField> = points
         .iter()
-        .map(|&point| stress(&half_space, point, &grid, false, &fields[0], Some([&fields[1], &fields[2]])))
+        .map(|&point| {
+            stress(&half_space, point, &grid, Periodicity::NONE, &fields[0], Some([&fields[1], &fields[2]]))
+        })
         .collect();
     for threads in [1, 2, 3] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let mut operator = DepthOperator::new(&half_space, points[0], &grid, false, true, true).unwrap();
+            let mut operator =
+                DepthOperator::new(&half_space, points[0], &grid, Periodicity::NONE, true, true).unwrap();
             let mut field = StressField::zeros([40, 40]);
             for (point, fresh) in points.iter().zip(&fresh) {
                 operator.move_to(*point).unwrap();
@@ -469,7 +479,7 @@ fn the_tension_behind_a_sliding_cylinder_is_found_wherever_its_rim_falls() {
             &body(&[], Some((1.0, poisson))),
             surface,
             &history.grid,
-            false,
+            Periodicity::NONE,
             pressure,
             Some([shear, &none]),
         );
@@ -500,7 +510,7 @@ fn tension_behind_a_slider(cells: usize, size: f64, poisson: f64, friction: f64)
     let none = Array2::zeros((cells, cells));
     let surface = DepthPoint { depth: 0.0, layer: 0 };
     let half_space = body(&[], Some((1.0, poisson)));
-    let field = stress(&half_space, surface, &grid, false, &pressure, Some([&shear, &none]));
+    let field = stress(&half_space, surface, &grid, Periodicity::NONE, &pressure, Some([&shear, &none]));
     let largest = |pressure: Option<&Array2<f64>>| {
         let mut found = Vec::new();
         look(&mut found, &field, surface, false, 0, pressure);

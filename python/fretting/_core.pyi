@@ -199,7 +199,7 @@ def statistics(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
 def sobol_indices(values: npt.NDArray[np.float64], count: int) -> npt.NDArray[np.float64]: ...
 def surface_temperature(
     conductors: str,
-    setting: tuple[tuple[float, float], bool],
+    setting: tuple[tuple[float, float], bool | str],
     increments: list[
         tuple[
             npt.NDArray[np.float64],
@@ -212,20 +212,20 @@ def surface_temperature(
 ) -> dict[str, Any]: ...
 def contact_resistance(
     conductors: str,
-    setting: tuple[tuple[float, float], bool],
+    setting: tuple[tuple[float, float], bool | str],
     pressure: npt.NDArray[np.float64],
     threads: int | None,
 ) -> float: ...
 def subsurface_displacement(
     bodies: tuple[str, bool],
-    setting: tuple[tuple[float, float], bool],
+    setting: tuple[tuple[float, float], bool | str],
     tractions: tuple[npt.NDArray[np.float64], tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None],
     depths: list[float],
     threads: int | None,
 ) -> dict[str, npt.NDArray[Any]]: ...
 def subsurface_stress(
     bodies: tuple[str, bool],
-    setting: tuple[tuple[float, float], bool],
+    setting: tuple[tuple[float, float], bool | str],
     tractions: tuple[npt.NDArray[np.float64], tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None],
     depths: list[float],
     even: tuple[tuple[float, float], str],
@@ -262,7 +262,7 @@ def line_history(
 ) -> Solution: ...
 def fatigue(
     bodies: tuple[str, bool],
-    setting: tuple[tuple[float, float], bool],
+    setting: tuple[tuple[float, float], bool | str],
     loading: _Loading,
     depths: list[float],
     constants: str,
@@ -270,14 +270,14 @@ def fatigue(
 ) -> dict[str, Any]: ...
 def crack(
     bodies: tuple[str, bool],
-    setting: tuple[tuple[float, float], bool],
+    setting: tuple[tuple[float, float], bool | str],
     loading: _Loading,
     constants: str,
     threads: int | None,
 ) -> str: ...
 def coating_fracture(
     bodies: tuple[str, bool],
-    setting: tuple[tuple[float, float], bool],
+    setting: tuple[tuple[float, float], bool | str],
     loading: tuple[
         list[
             tuple[

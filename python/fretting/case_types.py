@@ -358,6 +358,9 @@ class Output(TypedDict):
     """
 
 
+Periodic: TypeAlias = bool | Axis
+
+
 class Phase(TypedDict):
     """
     Phases of the controls [degrees], each by the name of its control.
@@ -904,12 +907,13 @@ class Grid(TypedDict):
     """
     datum: NotRequired[float]
     """
-    Depth below the load of the point that approach and shift of a line contact are relative to [length], in each body that has
-    an elastic base. Default: the size of the grid.
+    Depth below the load of the point that approach and shift are relative to [length], in each body that has an elastic base; of a line
+    contact, and of one that repeats along one axis. Default: the size of the grid across that axis.
     """
-    periodic: NotRequired[bool]
+    periodic: NotRequired[Periodic]
     """
-    Periodic in x and y. Default: false, infinite half-space.
+    Periodic in x and y (true), along one axis alone ("x" or "y"; along the other the half-spaces are infinite, and approach and shift are
+    relative to a datum, as in a line contact), or not at all. Default: false, infinite half-spaces.
     """
     size: Size
     """

@@ -117,7 +117,7 @@ class History:
     _bodies: str
     _residual_stress: str
     _spacing: tuple[float, float]
-    _periodic: bool
+    _periodic: bool | str
     _continues = False  # starts from the end of another history
 
     def __init__(self, answer: _core.History, case: dict[str, Any]) -> None:
@@ -145,7 +145,7 @@ class History:
         self._residual_stress = json.dumps(case.get("residual_stress", [{"layers": []}, {"layers": []}]))
         dx, dy = plan["grid"]["spacing"]
         self._spacing = (dx, dy)
-        self._periodic = bool(case["periodic"])
+        self._periodic = case["periodic"]
         self.cycles = Table(columns(json.loads(answer.cycles())))
         self.running_conditions = json.loads(answer.running_conditions())
 
@@ -411,7 +411,7 @@ class History:
         body : {"lower", "upper"}
             The body.
         displacement : bool
-            Also compute displacements, at depth 0 those of the surface; not of line contacts. They are those of the
+            Also compute displacements, at depth 0 those of the surface; not of line contacts, nor where one axis alone is periodic. They are those of the
             tractions alone, without the strain of bulk and residual stress, and periodic ones without their mean. The
             relative displacement of the surfaces along z is the sum of both bodies', along x and y that of the lower
             less that of the upper body.

@@ -37,8 +37,10 @@ def subsurface(
     """Return stresses and displacements: see :meth:`fretting.History.subsurface`."""
     module = _dataset.module("subsurface")
     refuse_thinned(history)
-    if displacement and history.is_line:
-        raise ValueError("displacement: below the surface of a line contact displacements are not computed")
+    if displacement and (history.is_line or isinstance(history._periodic, str)):
+        raise ValueError(
+            "displacement: below the surface of a contact without end along one axis displacements are not computed"
+        )
     pressure = on_grid(history, history.field("pressure", increment))
     shear = None
     if not frictionless(history):

@@ -1,9 +1,10 @@
 //! The operator as plain double sums: displacements of a grid's cells from influence coefficients, cell by cell.
 
 use fret_core::kernel::{
-    Components, InfluenceCoefficients, influence_coefficients, line_coefficients, periodic_symbols,
+    Components, InfluenceCoefficients, PairResponse, influence_coefficients, line_coefficients,
+    periodic_symbols, repeated_coefficients,
 };
-use fret_core::model::{ContactPair, SurfaceGrid};
+use fret_core::model::{ContactPair, Periodicity, SurfaceGrid};
 use ndarray::{Array2, s};
 
 /// Displacement of any cell by unit traction on any other, over their offset.
@@ -35,9 +36,9 @@ const TERMS: [(usize, usize, usize, f64); 9] = [
 
 impl Influence {
     /// Table of a pair on a grid; of a periodic problem with all images.
-    pub fn new(bodies: &ContactPair, grid: &SurfaceGrid, periodic: bool, datum: Option<f64>) -> Self {
+    pub fn new(bodies: &ContactPair, grid: &SurfaceGrid, periodic: Periodicity, datum: Option<f64>) -> Self {
         let (cells, spacing) = (grid.cells(), grid.spacing());
-        let quarters = if periodic {
+        let quarters = if periodic.is_both() {
             let symbols = periodic_symbols(bodies, cells, spacing, Components::ALL, 0);
             let all = [symbols.zz, symbols.xx, symbols.yy, symbols.xy, symbols.zx, symbols.zy];
             let mut component = 0..6;
@@ -48,6 +49,10 @@ impl Influence {
             let InfluenceCoefficients { zz, xx, yy, xy, zx, zy } = if grid.is_line() {
                 let datum = datum.unwrap_or(grid.size()[0]);
                 line_coefficients(bodies, cells[0], spacing[0], datum, Components::ALL)
+            } else if let Some(axis) = periodic.one_axis() {
+                let datum = datum.unwrap_or(grid.size()[1 - axis]);
+                let response = PairResponse::new(bodies);
+                repeated_coefficients((bodies, &response), (cells, spacing), axis, datum, Components::ALL)
             } else {
                 influence_coefficients(bodies, cells, spacing, Components::ALL)
             };

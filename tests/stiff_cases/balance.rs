@@ -51,7 +51,7 @@ impl Accounts {
     pub fn of(plan: &Plan) -> Result<Self, ConvolutionError> {
         let case = &plan.case;
         let spacing = plan.grid.spacing();
-        let response = if case.periodic {
+        let response = if case.periodic.is_both() {
             SurfaceResponse::Periodic(periodic_symbols(&case.bodies, case.cells, spacing, Components::ALL, 0))
         } else {
             let all = influence_coefficients(&case.bodies, case.cells, spacing, Components::ALL);

@@ -121,8 +121,8 @@ impl Scene {
         let mut accounts_of_whole = Accounts::of(&whole).map_err(operator_failed)?;
         let history_of_whole = Simulation::new(&whole).run(&mut accounts_of_whole).map_err(failed)?;
         let pair = &plan.case.bodies;
-        let shown =
-            operator::shown(pair, plan.grid.spacing(), plan.case.periodic).map_err(operator_failed)?;
+        let shown = operator::shown(pair, plan.grid.spacing(), plan.case.periodic.is_both())
+            .map_err(operator_failed)?;
         let increments = history.steps.len().max(1);
         Ok(Outcome::Judged(Judgement {
             response: self.response_error(&PairResponse::new(pair)),

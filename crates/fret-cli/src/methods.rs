@@ -1,7 +1,7 @@
 //! A paragraph on methods, for the reader who writes a paper: what was solved, on which grid, how, to which residual.
 
 use fret_core::case::Case;
-use fret_core::model::{Body, Dimension, Integration};
+use fret_core::model::{Axis, Body, Dimension, Integration, Periodicity};
 use fret_core::plan::{Coupling, Plan};
 use fret_core::units::Units;
 
@@ -34,7 +34,12 @@ pub fn paragraph<M, H>(
             "The potential contact area of {} x {} had {nx} x {ny} cells of uniform traction{}.",
             extent(width),
             extent(depth),
-            if case.periodic { ", repeated periodically along x and y" } else { "" }
+            match case.periodic {
+                Periodicity::Both(false) => "",
+                Periodicity::Both(true) => ", repeated periodically along x and y",
+                Periodicity::Along(Axis::X) => ", repeated periodically along x",
+                Periodicity::Along(Axis::Y) => ", repeated periodically along y",
+            }
         ),
         Dimension::Line => {
             format!("The potential contact area, {} long, had {nx} cells of uniform traction.", extent(width))

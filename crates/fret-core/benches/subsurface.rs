@@ -5,7 +5,7 @@
 
 use std::time::Instant;
 
-use fretting::model::{Base, Coating, ElasticMaterial, HalfSpace, SurfaceGrid};
+use fretting::model::{Base, Coating, ElasticMaterial, HalfSpace, Periodicity, SurfaceGrid};
 use fretting::subsurface::{DepthOperator, StressField, Tractions, automatic_depths};
 use ndarray::Array2;
 
@@ -23,7 +23,7 @@ fn main() {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     pool.install(|| {
             // tables of the method are made once a process, memory once a survey
-            let mut operator = DepthOperator::new(&body, points[0], &grid, false, true, false).unwrap();
+            let mut operator = DepthOperator::new(&body, points[0], &grid, Periodicity::NONE, true, false).unwrap();
             let mut stress = StressField::zeros([128; 2]);
             let mut least = vec![[f64::INFINITY; 2]; points.len()];
             for _round in 0..rounds {

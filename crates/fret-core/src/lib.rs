@@ -119,6 +119,9 @@ mod heights;
 pub mod history;
 pub mod identify;
 pub mod kernel;
+#[cfg(test)]
+#[path = "../../../tests/limit.rs"]
+mod limit;
 pub mod machine;
 pub mod measured;
 pub mod model;

@@ -10,6 +10,7 @@ use pyo3::prelude::{Bound, PyDictMethods, PyResult, Python, pyfunction};
 use pyo3::types::PyDict;
 
 use crate::error::bad_value;
+use crate::repeats::Repeats;
 use crate::threads::{Threads, check_memory, on_pool};
 
 /// The conductors of the lower and the upper body, given as JSON text.
@@ -30,12 +31,12 @@ type IncrementArrays<'py> = (
 pub fn surface_temperature<'py>(
     py: Python<'py>,
     conductors: &str,
-    setting: ([f64; 2], bool),
+    setting: ([f64; 2], Repeats),
     increments: Vec<IncrementArrays<'py>>,
     loading: (f64, f64),
     threads: Threads,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let (spacing, periodic) = setting;
+    let (spacing, Repeats(periodic)) = setting;
     let (dissipated_energy, frequency) = loading;
     let conductors = conductors_of(conductors)?;
     let Some(shape) = increments.first().map(|(pressure, ..)| pressure.as_array().dim()) else {
@@ -92,11 +93,11 @@ pub fn surface_temperature<'py>(
 pub fn contact_resistance(
     py: Python<'_>,
     conductors: &str,
-    setting: ([f64; 2], bool),
+    setting: ([f64; 2], Repeats),
     pressure: PyReadonlyArray2<'_, f64>,
     threads: Threads,
 ) -> PyResult<f64> {
-    let (spacing, periodic) = setting;
+    let (spacing, Repeats(periodic)) = setting;
     let conductors = conductors_of(conductors)?;
     let contact = pressure.as_array().mapv(|pressure| pressure > 0.0);
     let shape = contact.dim();

@@ -1,6 +1,6 @@
 //! Fatigue of one body over a cycle: parameters under all cells, a short crack, cracks of the coating.
 
-use fret_core::model::{HalfSpace, SurfaceGrid};
+use fret_core::model::{HalfSpace, Periodicity, SurfaceGrid};
 use fret_core::plan::memory_of_stress;
 use fret_core::subsurface::coating_fracture::Film;
 use fret_core::subsurface::crack::crack_course;
@@ -17,6 +17,7 @@ use pyo3::types::PyDict;
 use serde::Deserialize;
 
 use crate::error::bad_value;
+use crate::repeats::Repeats;
 use crate::subsurface::{half_space_of, residual_of};
 use crate::threads::{Threads, check_memory, on_pool};
 
@@ -31,7 +32,7 @@ type IncrementArrays<'py> =
 struct Cycle {
     half_space: HalfSpace,
     grid: SurfaceGrid,
-    periodic: bool,
+    periodic: Periodicity,
     surfaces: Vec<LoadedSurface>,
     constants: LayerConstants,
 }
@@ -61,7 +62,7 @@ impl ConstantsOf {
 impl Cycle {
     fn read<'py>(
         bodies: (&str, bool),
-        (spacing, periodic): ([f64; 2], bool),
+        (spacing, Repeats(periodic)): ([f64; 2], Repeats),
         (increments, residual_stress): (Vec<IncrementArrays<'py>>, &str),
         constants: &str,
     ) -> PyResult<Self> {
@@ -175,7 +176,7 @@ fn stacked(planes: &[Option<Array2<f64>>]) -> Option<Array3<f64>> {
 pub fn fatigue<'py>(
     py: Python<'py>,
     bodies: (&str, bool),
-    setting: ([f64; 2], bool),
+    setting: ([f64; 2], Repeats),
     loading: (Vec<IncrementArrays<'py>>, &str),
     depths: Vec<f64>,
     constants: &str,
@@ -216,7 +217,7 @@ pub fn fatigue<'py>(
 pub fn crack<'py>(
     py: Python<'py>,
     bodies: (&str, bool),
-    setting: ([f64; 2], bool),
+    setting: ([f64; 2], Repeats),
     loading: (Vec<IncrementArrays<'py>>, &str),
     constants: &str,
     threads: Threads,
@@ -258,7 +259,7 @@ const DEPTHS_OF_COATING: usize = 32;
 pub fn coating_fracture<'py>(
     py: Python<'py>,
     bodies: (&str, bool),
-    setting: ([f64; 2], bool),
+    setting: ([f64; 2], Repeats),
     loading: (Vec<IncrementArrays<'py>>, &str),
     constants: &str,
     threads: Threads,

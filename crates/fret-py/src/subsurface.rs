@@ -13,6 +13,7 @@ use pyo3::prelude::{Bound, PyDictMethods, PyResult, Python, pyfunction};
 use pyo3::types::PyDict;
 
 use crate::error::bad_value;
+use crate::repeats::Repeats;
 use crate::threads::{Threads, check_memory, on_pool};
 
 /// The half-space of one body of a pair given as JSON text, and the sign of the contact's shear on it.
@@ -45,13 +46,13 @@ type TractionArrays<'py> =
 pub fn subsurface_stress<'py>(
     py: Python<'py>,
     bodies: (&str, bool),
-    setting: ([f64; 2], bool),
+    setting: ([f64; 2], Repeats),
     tractions: TractionArrays<'py>,
     depths: Vec<f64>,
     even: ([f64; 2], &str),
     threads: Threads,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let (spacing, periodic) = setting;
+    let (spacing, Repeats(periodic)) = setting;
     let residual = residual_of(even.1, bodies.1)?;
     let even = EvenStress { bulk: even.0, residual };
     let (half_space, sign) = half_space_of(bodies)?;
@@ -97,19 +98,19 @@ pub fn subsurface_stress<'py>(
 pub fn subsurface_displacement<'py>(
     py: Python<'py>,
     bodies: (&str, bool),
-    setting: ([f64; 2], bool),
+    setting: ([f64; 2], Repeats),
     tractions: TractionArrays<'py>,
     depths: Vec<f64>,
     threads: Threads,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let (spacing, periodic) = setting;
+    let (spacing, Repeats(periodic)) = setting;
     let (half_space, sign) = half_space_of(bodies)?;
     let half_space = &half_space;
     let points = depth_points(half_space, &depths).map_err(bad_value)?;
     let shape = tractions.0.as_array().dim();
-    if shape.1 == 1 {
+    if shape.1 == 1 || periodic.one_axis().is_some() {
         return Err(PyValueError::new_err(
-            "displacements below the surface of a line contact are not computed",
+            "displacements below the surface of a contact without end along one axis are not computed",
         ));
     }
     let cells = shape.0 * shape.1;

@@ -62,7 +62,7 @@ pub fn reach(run: &Results, surfaces: &[LoadedSurface]) -> f64 {
         .max()
         .unwrap_or(0);
     let ([width, length], dimension) = (run.grid().size(), run.grid().dimension());
-    if run.case().periodic {
+    if run.case().periodic.is_both() {
         return 0.5 * width.max(length);
     }
     let radius = dimension.radius(most as f64 * run.grid().cell_area());

@@ -93,7 +93,7 @@ fn table(
          work       {work}\n\n{}{}",
         shortened(title, LONGEST_TITLE),
         cells(plan),
-        if plan.case.periodic {
+        if plan.case.periodic.is_both() {
             "on the whole grid: periodic"
         } else {
             "on the active subdomain around the contact; the rest of the grid is checked once per increment"
@@ -143,14 +143,18 @@ pub fn cells(plan: &Plan) -> String {
     let unit = plan.case.units.as_ref().map_or_else(String::new, |units| format!(" {}", units.length));
     let figure = |value: f64| format!("{}{unit}", figure(value));
     let ([nx, ny], [dx, dy], [width, depth]) = (plan.grid.cells(), plan.grid.spacing(), plan.grid.size());
+    let datum = plan.datum.map_or_else(String::new, |datum| {
+        format!("; approach and shift are relative to {} below the load", figure(datum))
+    });
     if plan.grid.dimension() == Dimension::Line {
-        let datum = plan.datum.map_or_else(String::new, |datum| {
-            format!("; approach and shift are relative to {} below the load", figure(datum))
-        });
         return format!("line contact of {nx} cells of {}, {} in all{datum}", figure(dx), figure(width));
     }
+    let repeats = match plan.case.periodic.one_axis() {
+        Some(_) => format!(", {}", plan.case.periodic.in_words()),
+        None => String::new(),
+    };
     format!(
-        "{nx} x {ny} cells of {} x {}, {} x {} in all",
+        "{nx} x {ny} cells of {} x {}, {} x {} in all{repeats}{datum}",
         figure(dx),
         figure(dy),
         figure(width),

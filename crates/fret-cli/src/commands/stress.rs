@@ -7,7 +7,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use fret_core::case::{Side, StressRequest};
-use fret_core::model::{Body, Dimension, HalfSpace};
+use fret_core::model::{Body, HalfSpace};
 use fret_core::subsurface::{
     DepthPoint, LoadedSurface, StressField, Tractions, automatic_depths, depth_points, displacements, survey,
 };
@@ -103,8 +103,8 @@ fn computed(
     let place = folder_below(folder, Path::new("stress"))?;
     let constants = run.fatigue_constants(request);
     let mut tables = StressTables::new(run, request, (half_space, &constants), &points, &surfaces);
-    // those of a line contact need a datum
-    let has_displacements = run.grid().dimension() == Dimension::Plane;
+    // where one axis alone has no end, they need a datum
+    let has_displacements = run.case().endless_axis().is_none();
     let mut volume = if request.volume {
         let depths: Vec<f64> = points.iter().map(|point| point.depth).collect();
         let name = format!("volume-{:05}.vtr", surfaces.last().map_or(0, |surface| surface.increment));

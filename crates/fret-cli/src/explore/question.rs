@@ -18,6 +18,8 @@ use fret_results::{Beside, CaseFile};
 const MOST_CYCLES: i64 = 2;
 /// Increments of a stage, and of a cycle.
 const MOST_INCREMENTS: [i64; 2] = [8, 16];
+/// Residual that is accepted at the least: what is drawn and told has four digits.
+const TOLERANCE: f64 = 1e-6;
 /// Cells of a line contact, over those along a side of another.
 const LINE: i64 = 4;
 /// Sizes of a grid of the contact's own size are steps of this factor, so that loads can change a little without another grid, whose
@@ -76,6 +78,7 @@ impl Question {
             ));
         }
         shorten(&mut coarse, &plan, &mut notes);
+        loosen(&mut coarse, &plan, &mut notes);
         for (part, note) in [
             ("wear", "no wear"),
             ("stress", "stress below the middle alone"),
@@ -116,8 +119,9 @@ impl Question {
 
     /// Lets the grid follow the contact where the plan can find its size, and nothing of the case is given cell by cell or over a period.
     fn follow_the_contact(&mut self, plan: &Plan) {
-        let is_given =
-            !plan.case.profile.heights.is_empty() || plan.case.friction.is_map() || plan.case.periodic;
+        let is_given = !plan.case.profile.heights.is_empty()
+            || plan.case.friction.is_map()
+            || !plan.case.periodic.is_none();
         if is_given {
             return;
         }
@@ -237,6 +241,18 @@ fn coarsen(case: &mut Table, plan: &Plan, most: i64, notes: &mut Vec<String>) {
     let shown = cells.to_string().replace(", ", " x ");
     notes.push(format!("{} cells in place of {nx} x {ny}", shown.trim_matches(['[', ']'])));
     grid.insert("cells".to_owned(), cells);
+}
+
+/// No more digits than are drawn: each further one takes another application or two of the operators.
+fn loosen(case: &mut Table, plan: &Plan, notes: &mut Vec<String>) {
+    if plan.case.tolerance >= TOLERANCE {
+        return;
+    }
+    let solver = case.entry("solver").or_insert_with(|| Table::new().into());
+    if let Some(solver) = solver.as_table_mut() {
+        solver.insert("tolerance".to_owned(), Value::Float(TOLERANCE));
+        notes.push(format!("residuals up to {TOLERANCE:e}"));
+    }
 }
 
 /// No more cycles and increments than show a steady loop.

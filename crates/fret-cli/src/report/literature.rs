@@ -40,7 +40,7 @@ pub fn chapter(view: &Overview<'_>) -> Markup {
     let coated = [case.bodies.upper(), case.bodies.lower()]
         .iter()
         .any(|body| matches!(body, Body::Elastic(half_space) if !half_space.coatings().is_empty()));
-    let periodic = case.periodic;
+    let periodic = case.periodic.is_both();
     let pressed = view.normal_form.and_then(|form| form.under(Control::Force(1.0)));
     let partial_slip = view.tangential_form.is_some();
     let is_point = view.dimension() == Dimension::Plane;

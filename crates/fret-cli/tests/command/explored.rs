@@ -136,6 +136,19 @@ fn a_moved_slider_solves_the_case_that_the_page_writes() {
             let last: f64 = history.lines().last().unwrap().split(',').nth(column).unwrap().parse().unwrap();
             assert_eq!(answer["raw"][name].as_f64().unwrap(), last, "{name} of {values}");
         }
+        // The page has four digits, and is solved no farther; a solution to all digits has them, too.
+        let exact = text
+            .replace("tolerance = 1e-6", "tolerance = 1e-12")
+            .replace("tolerance = 0.000001", "tolerance = 1e-12");
+        assert_ne!(exact, text);
+        bench.file("exact.toml", &exact).fret(&["run", "exact.toml", "--force", "--quiet"]);
+        let exact = bench.text("results/exact/history.csv");
+        for name in ["dissipated_energy", "max_pressure", "approach"] {
+            let column = exact.lines().next().unwrap().split(',').position(|head| head == name).unwrap();
+            let last: f64 = exact.lines().last().unwrap().split(',').nth(column).unwrap().parse().unwrap();
+            let found = answer["raw"][name].as_f64().unwrap();
+            assert!((found / last - 1.0).abs() < 3e-5, "{name} of {values}: {found} {last}");
+        }
     }
     // The other button writes the case that was opened, with its own grid and output, and the moved number.
     let own = served.post("case", &json!({"values": {"friction.coefficient": 0.07}, "written": "own"}));

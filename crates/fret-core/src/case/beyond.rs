@@ -10,7 +10,7 @@ pub(super) fn beyond(judge: &mut Judge, grid: &GridFile, size: Option<GridSize>)
     let Some(given) = grid.beyond.as_ref().filter(|given| !given.value.is_body()) else {
         return Beyond::Body;
     };
-    if grid.is_periodic() {
+    if grid.periodicity().is_both() {
         judge.refuse::<()>(
             given.span(),
             "grid.beyond = \"no body\" in a periodic case: the surfaces repeat, and end nowhere",

@@ -28,7 +28,7 @@ use super::substrates::bulk_and_tilt;
 use super::wearing::wear;
 use crate::document::{At, Mistake, Places};
 use crate::model::stage::Stage;
-use crate::model::{CoulombFriction, Dimension, Displacement, Profile, Shape};
+use crate::model::{CoulombFriction, Dimension, Displacement, Periodicity, Profile, Shape};
 use crate::units::Units;
 
 /// Cells along one side of the grid, at the least.
@@ -81,11 +81,15 @@ pub(super) fn case(
         line(&mut judge, &file.grid, loading, profile.as_ref());
         motion_without_datum(&mut judge, &file.grid, size, stages.as_deref(), bodies.as_ref());
     }
-    let periodic = dimension == Dimension::Plane
-        && repeats(&mut judge, (&file.grid, cells, size), loading, profile.as_ref(), bodies.as_ref());
+    let periodic = match dimension {
+        Dimension::Line => Periodicity::NONE,
+        Dimension::Plane => {
+            repeats(&mut judge, (&file.grid, cells, size), loading, profile.as_ref(), bodies.as_ref())
+        }
+    };
     bulk_and_tilt(&mut judge, &file.grid, loading, bodies.as_ref(), size);
     let mapped = friction.iter().chain(changes.iter().flatten().flatten()).any(CoulombFriction::is_map);
-    if !periodic {
+    if periodic.is_none() {
         auto_of_what_is_given(&mut judge, &file.grid.size, mapped, profile.as_ref());
     }
     let frictionless = laws.as_ref().is_some_and(|laws| laws.iter().all(|law| law.is_frictionless()));
@@ -102,7 +106,7 @@ pub(super) fn case(
     rolling(&mut judge, &file, loading, (kinematics, profile.as_ref(), laws.as_deref()));
     let hardness = hardness(&mut judge, &file, loading, kinematics);
     let wears = (file.wear.as_ref(), file.stress.as_ref(), kinematics);
-    let surfaces = (frictionless, periodic);
+    let surfaces = (frictionless, !periodic.is_none());
     let wear = wear(&mut judge, wears, (bodies.as_ref(), files), stages.as_deref(), surfaces);
     let output = output(&mut judge, file.output.as_ref());
     let stress = stress(&mut judge, file.stress.as_ref(), bodies.as_ref(), output.as_ref(), frictionless);

@@ -6,7 +6,7 @@ use super::output::Output;
 use super::parts::{Constant, NamedBody};
 use crate::document::At;
 use crate::model::stage::{Course, Stage};
-use crate::model::{ConductingLayer, Conduction, Conductor, CoulombFriction, Dimension};
+use crate::model::{ConductingLayer, Conduction, Conductor, CoulombFriction, Dimension, Periodicity};
 
 /// Conductors of the lower and the upper body; what was refused conducts nothing.
 pub(super) fn conduction(
@@ -14,7 +14,7 @@ pub(super) fn conduction(
     bodies: [NamedBody<'_>; 2],
     table: Option<&At<ThermalFile>>,
     history: (Option<&[Stage]>, Option<&Output>),
-    (friction, periodic): (Option<&[&CoulombFriction]>, bool),
+    (friction, periodic): (Option<&[&CoulombFriction]>, Periodicity),
 ) -> Conduction {
     let before = judge.mistakes.len();
     let mut of = |constant| bodies.map(|body| conductor(judge, body, constant));
@@ -35,7 +35,7 @@ pub(super) fn conduction(
 fn without_meaning(
     conduction: &Conduction,
     (stages, output): (Option<&[Stage]>, Option<&Output>),
-    (friction, dimension, periodic): (Option<&[&CoulombFriction]>, Dimension, bool),
+    (friction, dimension, periodic): (Option<&[&CoulombFriction]>, Dimension, Periodicity),
 ) -> Option<(&'static str, &'static str)> {
     let is_cyclic = |stage: &Stage| matches!(stage.course, Course::Cycles(_));
     if conduction.thermal.iter().all(Option::is_none) {
@@ -59,7 +59,13 @@ fn without_meaning(
             "cells = [x, y], a contact of finite length",
         ));
     }
-    if periodic {
+    if periodic.one_axis().is_some() {
+        return Some((
+            "a case that is periodic along one axis: along an infinite line no steady temperature is finite",
+            "a contact of finite length, on a grid around it: periodic = false",
+        ));
+    }
+    if periodic.is_both() {
         return Some((
             "a periodic case: heated all over, a half-space has no steady temperature",
             "a single contact, on a grid around it: periodic = false",

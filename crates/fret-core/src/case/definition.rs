@@ -10,8 +10,8 @@ use crate::kernel::uniform_response;
 use crate::model::stage::Stage;
 use crate::model::{
     Beyond, CellMap, Conduction, ContactPair, CoulombFriction, Dimension, FrictionEvolution, Heights,
-    HeightsSummary, Integration, Kinematics, LoadStep, MapSummary, Profile, ResidualStress, Rig, Scheme,
-    WearRule,
+    HeightsSummary, Integration, Kinematics, LoadStep, MapSummary, Periodicity, Profile, ResidualStress, Rig,
+    Scheme, WearRule,
 };
 use crate::subsurface::fatigue::LayerConstants;
 use crate::units::Units;
@@ -28,14 +28,15 @@ pub struct Case<M = CellMap, H = Heights> {
     pub cells: [usize; 2],
     /// Side lengths of the grid.
     pub size: GridSize,
-    /// Depth below the load that approach and shift of a line contact are relative to \[length\]; `None`: the size of the grid.
+    /// Depth below the load that approach and shift are relative to \[length\], of a contact that is [endless](Case::endless_axis) along an
+    /// axis; `None`: the size of the grid across it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub datum: Option<f64>,
     /// What lies beyond the edge of the grid.
     #[serde(default, skip_serializing_if = "Beyond::is_body")]
     pub beyond: Beyond,
-    /// Whether the problem is periodic in x and y.
-    pub periodic: bool,
+    /// Along which axes the problem repeats.
+    pub periodic: Periodicity,
     /// The two bodies.
     pub bodies: ContactPair,
     /// The pressure at which the softer surface yields \[pressure\]; `None`: neither does.
@@ -143,9 +144,18 @@ impl<M, H> Case<M, H> {
         self.dimension() == Dimension::Line
     }
 
+    /// The axis (0: x, 1: y) along which the contact has no end, while it has one along the other: that of a line contact, or the only one along
+    /// which the problem repeats. Approach and shift are relative to a datum then.
+    pub fn endless_axis(&self) -> Option<usize> {
+        match self.dimension() {
+            Dimension::Line => Some(1),
+            Dimension::Plane => self.periodic.one_axis(),
+        }
+    }
+
     /// Whether the bodies have a mean gap in place of an approach: periodic half-spaces, which a uniform pressure moves without bound.
     pub fn counts_mean_gap(&self) -> bool {
-        self.periodic && uniform_response(&self.bodies).is_none()
+        self.periodic.is_both() && uniform_response(&self.bodies).is_none()
     }
 
     /// Springs between the upper body and what is driven.

@@ -8,7 +8,7 @@ use super::side::Side;
 use super::stage_file::{AutoWord, StageFile, WearFile};
 use super::surface_file::{FrictionFile, LENGTH, ProfileFile};
 use crate::document::{At, Range, Table};
-use crate::model::{Beyond, Displacement, Frame, Integration, Scheme};
+use crate::model::{Beyond, Displacement, Frame, Integration, Periodicity, Scheme};
 
 /// A fretting contact: bodies, first gap, friction, and a loading history. Any consistent system of units.
 #[derive(Table, JsonSchema)]
@@ -114,20 +114,21 @@ pub(super) struct GridFile {
     pub cells: At<CellsFile>,
     /// Side lengths along x and y [length], or "auto": chosen so that the contact fits with a margin. A single number in a line contact.
     pub size: At<SizeFile>,
-    /// Depth below the load of the point that approach and shift of a line contact are relative to [length], in each body that has
-    /// an elastic base. Default: the size of the grid.
+    /// Depth below the load of the point that approach and shift are relative to [length], in each body that has an elastic base; of a line
+    /// contact, and of one that repeats along one axis. Default: the size of the grid across that axis.
     pub datum: Option<At<f64>>,
     /// What lies beyond the edge of the grid: "body" (contact that reaches the edge is refused) or "no body": one of the bodies
     /// ends there with a sharp edge, as a flat punch does, and contact may reach it (a rough specimen, a rectangular pad). Default: "body".
     pub beyond: Option<At<Beyond>>,
-    /// Periodic in x and y. Default: false, infinite half-space.
-    pub periodic: Option<At<bool>>,
+    /// Periodic in x and y (true), along one axis alone ("x" or "y"; along the other the half-spaces are infinite, and approach and shift are
+    /// relative to a datum, as in a line contact), or not at all. Default: false, infinite half-spaces.
+    pub periodic: Option<At<Periodicity>>,
 }
 
 impl GridFile {
-    /// Whether the scene repeats.
-    pub fn is_periodic(&self) -> bool {
-        self.periodic.as_deref().is_some_and(|periodic| *periodic)
+    /// Along which axes the scene repeats.
+    pub fn periodicity(&self) -> Periodicity {
+        self.periodic.as_deref().copied().unwrap_or_default()
     }
 }
 

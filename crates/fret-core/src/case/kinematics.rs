@@ -6,7 +6,7 @@ use super::misfits::{Loading, twist_by_moment};
 use super::side::Side;
 use super::surface_file::OfFile;
 use crate::document::At;
-use crate::model::{Displacement, Frame, Kinematics};
+use crate::model::{Displacement, Frame, Kinematics, Periodicity};
 
 /// What is looked at.
 pub(super) struct Concerned<'a> {
@@ -50,6 +50,8 @@ pub(super) fn kinematics(judge: &mut Judge, concerned: &Concerned<'_>) -> Kinema
         *loading,
         (&why, "twist, the angle; or no twist_moment: the upper body then does not turn"),
     );
+    let one_axis = |periodic: &At<Periodicity>| periodic.value.one_axis().is_some();
+    let periodic = file.grid.periodic.as_ref().filter(|periodic| one_axis(periodic));
     let beyond = file.grid.beyond.as_ref().filter(|beyond| !beyond.value.is_body());
     let heights = file.profile.as_ref().and_then(|profile| profile.value.heights.as_ref());
     let of = heights.and_then(|heights| heights.value.of.as_ref()).filter(|of| of.value == OfFile::Gap);
@@ -57,6 +59,11 @@ pub(super) fn kinematics(judge: &mut Judge, concerned: &Concerned<'_>) -> Kinema
     let evolution = file.friction.as_ref().and_then(|friction| friction.evolution.as_ref());
     let body = file.stress.as_ref().and_then(|stress| stress.value.body.as_ref());
     judge.refuse_given([
+        (
+            periodic.map(At::span),
+            format!("grid.periodic along one axis with {FINITE}: surfaces move where all of them repeats, or none"),
+            SMALL,
+        ),
         (
             beyond.map(At::span),
             format!("grid.beyond = \"no body\" with {FINITE}: nothing says which body ends there, and moves its edge"),

@@ -19,10 +19,10 @@ pub(super) const ROTATION: Misfit =
 
 /// Refuses what a line contact has no place for: rotations, shapes that end or curve along the line, a second period.
 pub(super) fn line(judge: &mut Judge, grid: &GridFile, loading: Loading<'_>, profile: Option<&Profile>) {
-    if let Some(periodic) = grid.periodic.as_ref().filter(|periodic| periodic.value) {
+    if let Some(periodic) = grid.periodic.as_ref().filter(|periodic| !periodic.value.is_none()) {
         judge.refuse::<()>(
             periodic.span(),
-            "grid.periodic = true in a line contact, which is not periodic",
+            "grid.periodic in a line contact, which is not periodic",
             "cells = [n, 4] with periodic = true is a periodic line contact",
         );
     }
@@ -102,13 +102,17 @@ pub(super) fn datum(
 ) -> Option<f64> {
     let given = grid.datum.as_ref()?;
     let depth = given.value;
-    if judge.dimension == Dimension::Plane {
+    let across = match grid.periodicity().one_axis() {
+        _ if judge.dimension == Dimension::Line => Some(0),
+        along => along.map(|along| 1 - along),
+    };
+    let Some(across) = across else {
         return judge.refuse(
             given.span(),
-            "grid.datum: only a line contact needs one; here approach and shift are relative to infinity",
+            "grid.datum: only a line contact needs one, or a case that is periodic along one axis; here approach and shift are relative to infinity",
             "cells = 512 makes a line contact",
         );
-    }
+    };
     if bodies.is_some_and(|bodies| !bodies.has_elastic_base()) {
         return judge.refuse(
             given.span(),
@@ -117,7 +121,8 @@ pub(super) fn datum(
         );
     }
     let usable = match size {
-        Some(GridSize::Given([length, _])) => {
+        Some(GridSize::Given(sides)) => {
+            let length = sides[across];
             (DATUM.start() * length..=DATUM.end() * length).contains(&depth)
         }
         _ => depth.is_finite() && depth > 0.0,
@@ -222,6 +227,7 @@ mod tests {
             "0.125",
         );
         refused(ROLLER, &[("size = 3.0", "size = 3.0\nperiodic = true")], "which is not periodic", "true");
-        assert!(!read(ROLLER, &[("size = 3.0", "size = 3.0\nperiodic = false")]).periodic);
+        refused(ROLLER, &[("size = 3.0", "size = 3.0\nperiodic = \"y\"")], "which is not periodic", "\"y\"");
+        assert!(read(ROLLER, &[("size = 3.0", "size = 3.0\nperiodic = false")]).periodic.is_none());
     }
 }

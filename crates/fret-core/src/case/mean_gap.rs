@@ -22,7 +22,7 @@ pub(super) fn mean_plane(
     bodies: Option<&ContactPair>,
     profile: Option<&Profile>,
 ) -> Result<f64, WithoutMeanGap> {
-    if !file.grid.is_periodic() {
+    if !file.grid.periodicity().is_both() {
         return Err(("of surfaces that do not repeat: theirs grows with the grid", WITH_APPROACH));
     }
     if bodies.is_some_and(|bodies| uniform_response(bodies).is_some()) {

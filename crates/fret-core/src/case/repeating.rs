@@ -7,7 +7,7 @@ use super::line::ROTATION;
 use super::misfits::{Loading, Misfit};
 use crate::kernel::uniform_response;
 use crate::model::controls::{NORMAL, TANGENTIAL, TWIST};
-use crate::model::{ContactPair, Profile, Shape};
+use crate::model::{ContactPair, Periodicity, Profile, Shape};
 
 /// Cells per wave from which on a wave is resolved; fewer are warned of.
 pub const CELLS_PER_WAVE: f64 = 6.0;
@@ -19,20 +19,20 @@ const MOTIONS: [Misfit; 2] = [
     Misfit { freedoms: TANGENTIAL..TWIST, motions: true, in_table: "a shift" },
 ];
 
-/// Whether the scene repeats; refuses what has no meaning then.
+/// Along which axes the scene repeats; refuses what has no meaning then.
 pub(super) fn repeats(
     judge: &mut Judge,
     (grid, cells, size): (&GridFile, Option<[usize; 2]>, Option<GridSize>),
     loading: Loading<'_>,
     profile: Option<&Profile>,
     bodies: Option<&ContactPair>,
-) -> bool {
-    let periodic = grid.is_periodic();
-    if !periodic {
-        if let Some(profile) = profile {
-            endless(judge, grid, profile);
-        }
-        return false;
+) -> Periodicity {
+    let periodic = grid.periodicity();
+    if let Some(profile) = profile {
+        endless(judge, grid, profile);
+    }
+    if periodic.is_none() {
+        return periodic;
     }
     match (size, profile) {
         (Some(GridSize::Auto), _) => {
@@ -51,9 +51,12 @@ pub(super) fn repeats(
         }
         _ => {}
     }
-    let uniform = bodies.map(uniform_response);
     let forces = "prescribe normal_force and tangential_force, those of one period";
     ROTATION.refuse(judge, loading, "in a periodic case: a rotation is not periodic", forces);
+    if !periodic.is_both() {
+        return periodic;
+    }
+    let uniform = bodies.map(uniform_response);
     for (axis, motions) in MOTIONS.iter().enumerate() {
         let why = match uniform {
             Some(None) if axis == 0 => "a half-space under a periodic load has no such rigid motion",
@@ -66,27 +69,33 @@ pub(super) fn repeats(
         let or = if uniform == Some(None) { "mean_gap; " } else { "" };
         motions.refuse(judge, loading, &why, &format!("{forces}; or {or}for layers, base = \"rigid\""));
     }
-    true
+    periodic
 }
 
-/// Refuses, in free space, what has no end.
+/// Refuses what has no end along an axis along which nothing repeats.
 fn endless(judge: &mut Judge, grid: &GridFile, profile: &Profile) {
-    if profile.shapes.iter().any(|shape| matches!(shape, Shape::Wave { .. })) {
+    let axes = grid.periodicity().axes();
+    let waves_on = |shape: &Shape, axis: usize| match shape {
+        Shape::Wave { wavelengths, .. } => !axes[axis] && (wavelengths[axis].is_some() || axes == [false; 2]),
+        _ => false,
+    };
+    if (0..2).any(|axis| profile.shapes.iter().any(|shape| waves_on(shape, axis))) {
         judge.refuse::<()>(
             grid.cells.span(),
             "profile.wave: a wave is periodic, the case is not",
-            "grid.periodic = true",
+            "grid.periodic = true; a formula or heights where surfaces are wavy and do not repeat",
         );
         return;
     }
-    for (axis, name) in ["x", "y"].into_iter().enumerate() {
+    for (axis, name) in ["x", "y"].into_iter().enumerate().filter(|(axis, _)| !axes[*axis]) {
         let ends = grid.beyond.as_ref().is_some_and(|beyond| !beyond.value.is_body());
         if profile.is_straight_along(axis) && !ends {
             judge.refuse::<()>(
                 grid.cells.span(),
                 format!("profile: infinite along {name}, in a non-periodic case"),
-                "a cylinder's length = ..., grid.beyond = \"no body\" where it ends at the edge of the grid, or grid.periodic = true with a \
-                 period many contact widths wide",
+                &format!(
+                    "a cylinder's length = ..., grid.beyond = \"no body\" where it ends at the edge of the grid, or grid.periodic = \"{name}\""
+                ),
             );
         }
     }
@@ -141,8 +150,8 @@ mod tests {
 
     #[test]
     fn a_period_holds_whole_waves() {
-        assert!(read(BALL, &[PERIODIC, WAVE]).periodic);
-        assert!(!read(BALL, &[]).periodic);
+        assert!(read(BALL, &[PERIODIC, WAVE]).periodic.is_both());
+        assert!(read(BALL, &[]).periodic.is_none());
         // lengths along x and y that are not in 3 a whole number of times
         for (length, other, waves) in [
             ("1.5", "1.4999977500033748", "2.000003"),
@@ -174,6 +183,54 @@ mod tests {
             "[3.0, 3.0]",
         );
         refused(BALL, &[PERIODIC, ("[3.0, 3.0]", "\"auto\"")], "the period must be given", "\"auto\"");
+    }
+
+    /// What repeats along one axis has no end there alone, may end along the other, has an approach, and a datum.
+    #[test]
+    fn one_axis_alone_may_repeat() {
+        let along = |axis: &str| format!("size = [3.0, 3.0]\nperiodic = \"{axis}\"");
+        let (x, y) = (along("x"), along("y"));
+        let [x, y] = [("size = [3.0, 3.0]", &x[..]), ("size = [3.0, 3.0]", &y[..])];
+        assert_eq!(read(BALL, &[x]).periodic.axes(), [true, false]);
+        let case = read(BALL, &[y]);
+        assert_eq!((case.periodic.one_axis(), case.endless_axis()), (Some(1), Some(1)));
+        assert!(!case.counts_mean_gap());
+        refused(BALL, &[("size = [3.0, 3.0]", &along("z"))], "true, false, \"x\" or \"y\"", "\"z\"");
+        // waves along it, and not across it
+        let waves = WAVE.1.replacen("wavelength_x = 1.5\n", "", 1);
+        read(BALL, &[y, ("radius = 100.0", &format!("radius = 100.0\n{waves}"))]);
+        refused(
+            BALL,
+            &[y, ("radius = 100.0", &format!("radius = 100.0\n{}", WAVE.1))],
+            "a wave is periodic",
+            "[16, 32]",
+        );
+        let cylinder = |axis: &str| format!("[profile.cylinder]\naxis = \"{axis}\"\nradius = 100.0");
+        let sphere = "[profile.sphere]\nradius = 100.0";
+        read(BALL, &[y, (sphere, &cylinder("y"))]);
+        refused(BALL, &[y, (sphere, &cylinder("x"))], "infinite along x", "[16, 32]");
+        let ends = format!("{}\nbeyond = \"no body\"", y.1);
+        read(BALL, &[(y.0, &ends), (sphere, &cylinder("x"))]);
+        let datum = format!("{}\ndatum = 9.0", x.1);
+        assert_eq!(read(BALL, &[(x.0, &datum)]).datum, Some(9.0));
+        refused(BALL, &[(x.0, &format!("{}\ndatum = 1e-9", x.1))], "between a thousandth and 1e12", "1e-9");
+        let stage = |words: &str| format!("increments = 1\n[[load]]\n{words}\nincrements = 1");
+        read(BALL, &[y, ("increments = 1", &stage("approach = 0.1\nshift = [0.1, 0.0]"))]);
+        for (words, why, place) in [
+            ("twist = 0.125", "a rotation is not periodic", "0.125"),
+            ("mean_gap = 0.125", "do not repeat", "0.125"),
+            ("tilt = [0.125, 0.0]", "neither a strain nor a tilt", "[0.125, 0.0]"),
+        ] {
+            refused(BALL, &[y, ("increments = 1", &stage(words))], why, place);
+        }
+        refused(
+            BALL,
+            &[("size = [3.0, 3.0]", "size = \"auto\"\nperiodic = \"y\"")],
+            "the period must be given",
+            "\"auto\"",
+        );
+        let finite = ("[friction]\n", "[kinematics]\ndisplacement = \"finite\"\n[friction]\n");
+        refused(BALL, &[y, finite], "grid.periodic along one axis", "\"y\"");
     }
 
     /// 16 cells along x, 32 along y: of two cells per wave and less the centres show a longer wave, or none.

@@ -36,11 +36,16 @@ pub(super) fn rolling(
             help,
         );
     }
-    if file.grid.is_periodic() {
+    if !file.grid.periodicity().is_none() {
+        let one_axis = file.grid.periodicity().one_axis().is_some();
         roll.refuse(
             judge,
             loading,
-            "in a periodic case: the contact would roll into its own image",
+            if one_axis {
+                "in a case that is periodic along one axis: contacts roll where nothing repeats"
+            } else {
+                "in a periodic case: the contact would roll into its own image"
+            },
             "grid.periodic = false",
         );
     }

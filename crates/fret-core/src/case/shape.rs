@@ -27,7 +27,7 @@ pub(super) fn profile(judge: &mut Judge, file: &CaseFile, cells: Option<Cells>) 
     let before = judge.mistakes.len();
     let mut sum = Profile::default();
     // A surface that repeats is asked for inside of its period alone.
-    let moves = judge.moves && !file.grid.is_periodic();
+    let moves = judge.moves && !file.grid.periodicity().is_both();
     for (place, given) in places {
         if let Some(given) = given {
             let before = sum.shapes.len();

@@ -22,7 +22,7 @@ pub(super) fn bulk_and_tilt(
     bodies: Option<&ContactPair>,
     size: Option<GridSize>,
 ) {
-    let periodic = grid.is_periodic();
+    let periodic = !grid.periodicity().is_none();
     for (index, file) in stages.iter().enumerate() {
         let file = &file.value;
         let checked = checked.and_then(|checked| checked.get(index));

@@ -3,7 +3,7 @@
 use ndarray::Array2;
 
 use super::potential::{ConductionError, Potential};
-use crate::model::{Conductor, SurfaceGrid};
+use crate::model::{Conductor, Periodicity, SurfaceGrid};
 
 /// Constriction resistance between points far inside both bodies [1/(conductivity length)]: the drop of potential per current through
 /// the cells in contact, which are one potential on both faces. Films on the surfaces are layers of the conductors. In a periodic case what the
@@ -13,11 +13,11 @@ use crate::model::{Conductor, SurfaceGrid};
 /// of homogeneous bodies `2/(E* (kappa1 + kappa2) / (kappa1 kappa2)) dP/d approach` is its inverse (Barber 2003, Proc. R. Soc. A 459, 53).
 ///
 /// # Errors
-/// When a body does not conduct, no cell is in contact, or the grid is that of a line contact.
+/// When a body does not conduct, no cell is in contact, or the contact has no end along one axis alone.
 pub fn contact_resistance(
     conductors: [Option<&Conductor>; 2],
     grid: &SurfaceGrid,
-    periodic: bool,
+    periodic: Periodicity,
     contact: &Array2<bool>,
 ) -> Result<f64, ConductionError> {
     for (body, name) in conductors.iter().zip(["lower", "upper"]) {
@@ -31,7 +31,7 @@ pub fn contact_resistance(
         return Err(ConductionError::Apart);
     }
     let mut potential = Potential::new(conductors, grid, periodic)?;
-    if periodic && touching == grid.len() {
+    if periodic.is_both() && touching == grid.len() {
         return Ok(0.0);
     }
     let flux = potential.flux_for(&vec![1.0; grid.len()], &contact)?;

@@ -2,7 +2,7 @@
 
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
 use crate::kernel::{Components, PairResponse, coefficients_of, symbols_of};
-use crate::model::{Conductor, Dimension, SurfaceGrid};
+use crate::model::{Conductor, Dimension, Periodicity, SurfaceGrid};
 use fret_fft::ConvolutionError;
 
 /// Residual that is accepted, relative to the largest potential asked for.
@@ -13,8 +13,10 @@ const MOST_ITERATIONS: usize = 20_000;
 /// Why a problem of conduction has no answer.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ConductionError {
-    /// A line contact.
-    #[error("a line contact: along an infinite line no steady temperature or potential is finite")]
+    /// A line contact, or one that is periodic along one axis.
+    #[error(
+        "a line contact or one that is periodic along one axis: along an infinite line no steady temperature or potential is finite"
+    )]
     Line,
     /// Heat in a periodic case.
     #[error("a periodic case: heated all over, a half-space has no steady temperature")]
@@ -47,18 +49,18 @@ impl Potential {
     /// relative to the mean of the surface.
     ///
     /// # Errors
-    /// Of a line contact, and when a coefficient is not finite.
+    /// Of a line contact, of one that is periodic along one axis, and when a coefficient is not finite.
     pub fn new(
         conductors: [Option<&Conductor>; 2],
         grid: &SurfaceGrid,
-        periodic: bool,
+        periodic: Periodicity,
     ) -> Result<Self, ConductionError> {
-        if grid.dimension() == Dimension::Line {
+        if grid.dimension() == Dimension::Line || periodic.one_axis().is_some() {
             return Err(ConductionError::Line);
         }
         let response = PairResponse::conduction(conductors);
         let (cells, spacing) = (grid.cells(), grid.spacing());
-        let response = if periodic {
+        let response = if periodic.is_both() {
             SurfaceResponse::Periodic(symbols_of(response, cells, spacing, Components::NORMAL))
         } else {
             SurfaceResponse::FreeSpace(coefficients_of(&response, cells, spacing, Components::NORMAL))

@@ -3,7 +3,7 @@
 use ndarray::Array2;
 
 use super::potential::{ConductionError, Potential};
-use crate::model::{Conductor, SurfaceGrid};
+use crate::model::{Conductor, Periodicity, SurfaceGrid};
 
 /// Temperature rise of two surfaces that are heated where they touch, above bodies that are cold far below. Shape `(nx, ny)`.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,11 +38,11 @@ impl SurfaceTemperature {
 pub fn surface_temperature(
     conductors: [Option<&Conductor>; 2],
     grid: &SurfaceGrid,
-    periodic: bool,
+    periodic: Periodicity,
     heat: &Array2<f64>,
     contact: &Array2<bool>,
 ) -> Result<SurfaceTemperature, ConductionError> {
-    if periodic {
+    if periodic.is_both() {
         return Err(ConductionError::Periodic);
     }
     let shape = heat.dim();
@@ -53,17 +53,17 @@ pub fn surface_temperature(
         [Some(_), None] => all.clone(),
         [None, Some(_)] => vec![0.0; all.len()],
         [Some(_), Some(upper)] => {
-            let target = Potential::new([None, Some(upper)], grid, false)?.of(&all);
+            let target = Potential::new([None, Some(upper)], grid, periodic)?.of(&all);
             let contact: Vec<bool> =
                 contact.iter().zip(&all).map(|(touches, heat)| *touches || *heat > 0.0).collect();
-            Potential::new(conductors, grid, false)?.flux_for(&target, &contact)?
+            Potential::new(conductors, grid, periodic)?.flux_for(&target, &contact)?
         }
     };
     let into_upper: Vec<f64> = all.iter().zip(&into_lower).map(|(all, lower)| all - lower).collect();
     let mut rise = [None, None];
     for (place, flux) in [&into_lower, &into_upper].into_iter().enumerate() {
         if let Some(body) = conductors[place] {
-            rise[place] = Some(field(Potential::new([Some(body), None], grid, false)?.of(flux)));
+            rise[place] = Some(field(Potential::new([Some(body), None], grid, periodic)?.of(flux)));
         }
     }
     Ok(SurfaceTemperature { heat: heat.clone(), into_lower: field(into_lower), rise })

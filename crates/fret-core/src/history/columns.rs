@@ -204,7 +204,7 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
     ),
     real(
         "elastic_energy",
-        "elastic energy that the tractions of the contact store in the bodies and the interface, of a line contact relative to the datum",
+        "elastic energy that the tractions of the contact store in the bodies and the interface, of a line contact and one that is periodic along one axis relative to the datum",
         WORK,
         |step| step.elastic_energy,
     ),

@@ -3,7 +3,7 @@
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
-use crate::model::{Symmetry, Zone};
+use crate::model::{Periodicity, Symmetry, Zone};
 
 /// The contact as the cells see it.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -13,13 +13,13 @@ pub struct Footprint {
     /// half-widths of a strip or a line contact, and about the mean radius of the patches where there are many. `None` without contact, and for a
     /// contact without any edge.
     pub radius: Option<f64>,
-    /// Open cells between the contact and the nearest edge of the grid.
+    /// Open cells between the contact and the nearest edge of the grid, which a contact that repeats along one axis has across that axis alone.
     pub free: usize,
 }
 
 impl Footprint {
     /// Reads it off the zones in front of mirrors.
-    pub fn of(zone: &Array2<Zone>, symmetry: Symmetry) -> Self {
+    pub fn of(zone: &Array2<Zone>, symmetry: Symmetry, periodic: Periodicity) -> Self {
         let (nx, ny) = zone.dim();
         let mirrored = symmetry.axes();
         let is_loaded = |zone: &Zone| *zone != Zone::Open;
@@ -32,7 +32,8 @@ impl Footprint {
             least = [least[0].min(i), least[1].min(first)];
             most = [i, most[1].max(last)];
         }
-        let axes = if ny == 1 { 0..1 } else { 0..2 };
+        let endless = if ny == 1 { Some(1) } else { periodic.one_axis() };
+        let axes = (0..2).filter(|axis| Some(*axis) != endless);
         if cells == 0 {
             let cells = symmetry.whole_of([nx, ny]);
             return Self { radius: None, free: axes.map(|axis| cells[axis]).min().unwrap_or(0) };
@@ -93,10 +94,14 @@ mod tests {
 
     /// The footprint of a contact whose halves and quarters, where they are its mirror images, have the same one.
     fn footprint(zone: &Array2<Zone>) -> Footprint {
-        let whole = Footprint::of(zone, Symmetry::NONE);
+        let whole = Footprint::of(zone, Symmetry::NONE, Periodicity::NONE);
         for odd_shear in [[None, Some(1)], [Some(0), None], [Some(0), Some(1)]] {
             let symmetry = Symmetry { odd_shear };
-            assert_eq!(Footprint::of(&symmetry.part(zone), symmetry), whole, "{symmetry:?}");
+            assert_eq!(
+                Footprint::of(&symmetry.part(zone), symmetry, Periodicity::NONE),
+                whole,
+                "{symmetry:?}"
+            );
         }
         whole
     }

@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::cycle::CycleRecord;
 use super::footprint::Footprint;
 use super::warning::Warning;
-use crate::model::{ContactPair, ContactState, SolvedState, SurfaceGrid, WearLayers, Zone};
+use crate::model::{ContactPair, ContactState, Periodicity, SolvedState, SurfaceGrid, WearLayers, Zone};
 use crate::solver::{Regime, Residual, Work, worst};
 
 /// Debris between the surfaces of the whole contact; nothing where none stays.
@@ -166,8 +166,8 @@ pub struct History {
     pub grid: SurfaceGrid,
     /// The two bodies.
     pub bodies: ContactPair,
-    /// Whether the scene repeats in x and y.
-    pub periodic: bool,
+    /// Along which axes the scene repeats.
+    pub periodic: Periodicity,
     /// Names of the stages.
     pub stages: Vec<String>,
     /// One record an increment.

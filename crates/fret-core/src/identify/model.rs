@@ -158,7 +158,7 @@ fn reduced(mut case: Case) -> Result<Case, IdentifyError> {
     let refuse = |what: &str, help: &str| {
         Err(IdentifyError::Log { what: format!("the case {what}"), help: help.to_owned() })
     };
-    if case.periodic {
+    if !case.periodic.is_none() {
         return refuse("is periodic: a rig presses one contact", "grid.periodic = false");
     }
     if case.hardness.is_some() {

@@ -37,6 +37,15 @@ impl<const C: usize> CellCoefficients<C> {
         self.values.into_raw_vec_and_offset().0
     }
 
+    /// Those of the grid with x and y exchanged: `exchanged` components, and the second load for the third.
+    pub(super) fn with_axes_exchanged(&self, exchanged: [usize; C]) -> Self {
+        let (nx, kernels, ny) = self.values.dim();
+        let values = Array3::from_shape_fn((ny, kernels, nx), |(i, kernel, j)| {
+            self.values[[j, partner(kernel, exchanged), i]]
+        });
+        Self { values }
+    }
+
     /// The kernel of a component from a load: pressure, `q_x`, `q_y`.
     pub(crate) fn kernel(&self, load: usize, component: usize) -> ArrayView2<'_, f64> {
         self.values.index_axis(Axis(1), load * C + component)
@@ -168,6 +177,17 @@ where
     }
 }
 
+/// Writes the first `count` cells of rows of all kernels at the `index`-th offset along x.
+pub(super) fn fill_row<Q: Quartets<N>, const N: usize, const C: usize, const L: usize>(
+    tables: &Tables<Q, N>,
+    quadrature: &CellQuadrature,
+    (index, count): (usize, usize),
+    of_moments: &impl Fn(&[Moments; N]) -> [[f64; C]; L],
+    kernels: Vec<&mut [f64]>,
+) {
+    Arch::new().dispatch(Row::<Q, _, N, C, L> { tables, quadrature, index, count, of_moments, kernels });
+}
+
 /// Kernels on a grid, `K = loads C` of them, from what `of_moments` makes of a cell's moments: `[load][component]`. On square
 /// grids of square cells only offsets `j <= i` are integrated; the others are those with x and y exchanged: `exchanged` components,
 /// and the second load for the third. `memory` is written over.
@@ -186,15 +206,8 @@ pub(super) fn coefficients<Q: Quartets<N>, const N: usize, const C: usize, const
     let mut values = memory;
     values.resize(nx * kernels * ny, 0.0);
     values.par_chunks_mut(kernels * ny).enumerate().for_each(|(index, rows)| {
-        let row = Row::<Q, _, N, C, L> {
-            tables,
-            quadrature: &quadrature,
-            index,
-            count: if mirrored { index + 1 } else { ny },
-            of_moments: &of_moments,
-            kernels: rows.chunks_exact_mut(ny).collect(),
-        };
-        Arch::new().dispatch(row);
+        let count = if mirrored { index + 1 } else { ny };
+        fill_row(tables, &quadrature, (index, count), &of_moments, rows.chunks_exact_mut(ny).collect());
     });
     if mirrored {
         mirror(&mut values, nx, kernels, exchanged);
@@ -204,10 +217,15 @@ pub(super) fn coefficients<Q: Quartets<N>, const N: usize, const C: usize, const
     CellCoefficients::new(values)
 }
 
+/// The kernel that one is with x and y exchanged.
+fn partner<const C: usize>(kernel: usize, exchanged: [usize; C]) -> usize {
+    [0, 2, 1][kernel / C] * C + exchanged[kernel % C]
+}
+
 /// Fills the offsets `j > i` from those with x and y exchanged, block by block.
 fn mirror<const C: usize>(values: &mut [f64], n: usize, kernels: usize, exchanged: [usize; C]) {
-    let partner = |kernel: usize| [0, 2, 1][kernel / C] * C + exchanged[kernel % C];
-    mirror_rows(values, 0, n, &(0..kernels).map(partner).collect::<Vec<_>>());
+    let partners: Vec<_> = (0..kernels).map(|kernel| partner(kernel, exchanged)).collect();
+    mirror_rows(values, 0, n, &partners);
 }
 
 /// The same in a square of rows and columns from `first` on, of which `values` are the rows: the square above the middle on all threads, then
@@ -260,7 +278,7 @@ pub(super) fn surface_coefficients(
 }
 
 #[inline(always)]
-fn surface_displacement([[zz, mean, double, zx], [_, _, double_y, zy]]: &Moments) -> [f64; 6] {
+pub(super) fn surface_displacement([[zz, mean, double, zx], [_, _, double_y, zy]]: &Moments) -> [f64; 6] {
     [*zz, mean - double, mean + double, -2.0 * double_y, *zx, *zy]
 }
 

@@ -3,10 +3,16 @@
 use super::cell_integrals::Moments;
 use super::cells::{CellCoefficients, Tables, coefficients};
 use super::depth_response::DepthResponse;
+use super::line_depth::line_stress_coefficients;
 use super::quartets::{DisplacementFromAll, StressFromAll, StressFromPressure};
+use super::repeated::{repeated, with_images};
 
 /// xx, yy, zz, xy, xz, yz when x and y are exchanged.
 const STRESS_EXCHANGED: [usize; 6] = [1, 0, 2, 3, 5, 4];
+
+/// Which of them are odd along x and along y, from pressure; shear turns the axis along which it acts.
+const STRESS_ODD: [[bool; 2]; 6] =
+    [[false; 2], [false; 2], [false; 2], [true; 2], [true, false], [false, true]];
 
 /// Stress coefficients of one depth on a grid; shear is left out where it is not wanted. `memory` is written over.
 pub(crate) fn stress_coefficients(
@@ -22,6 +28,35 @@ pub(crate) fn stress_coefficients(
     } else {
         let tables = Tables::<StressFromPressure, 1>::new(response, cells, spacing);
         coefficients(&tables, cells, memory, STRESS_EXCHANGED, |[pressure]| [from_pressure(pressure)])
+    }
+}
+
+/// The same where the contact repeats along `axis` (0: x, 1: y), from tractions on all images: those of a line contact where nothing changes along
+/// that axis.
+pub(crate) fn repeated_stress_coefficients(
+    response: &DepthResponse,
+    (cells, spacing): ([usize; 2], [f64; 2]),
+    axis: usize,
+    with_shear: bool,
+) -> CellCoefficients<6> {
+    if axis == 0 {
+        let turned = ([cells[1], cells[0]], [spacing[1], spacing[0]]);
+        let found = repeated_stress_coefficients(response, turned, 1, with_shear);
+        return found.with_axes_exchanged(STRESS_EXCHANGED);
+    }
+    let line = line_stress_coefficients(response, cells[0], spacing[0], with_shear);
+    let uniform = |i: usize, kernel: usize| line.kernel(kernel / 6, kernel % 6)[[i, 0]];
+    let odd = |kernel: usize| {
+        let [x, y] = STRESS_ODD[kernel % 6];
+        [x != (kernel / 6 == 1), y != (kernel / 6 == 2)]
+    };
+    let reach = with_images(cells);
+    if with_shear {
+        let tables = Tables::<StressFromAll, 3>::new(response, reach, spacing);
+        repeated(&tables, cells, uniform, odd, stress_from_all)
+    } else {
+        let tables = Tables::<StressFromPressure, 1>::new(response, reach, spacing);
+        repeated(&tables, cells, uniform, odd, |[pressure]| [from_pressure(pressure)])
     }
 }
 

@@ -6,6 +6,7 @@ pub mod influence;
 pub mod line_influence;
 pub mod pair_response;
 pub mod periodic;
+pub mod repeated_influence;
 pub mod response_table;
 pub mod sampled;
 pub mod sublayers;
@@ -40,6 +41,7 @@ mod panels;
 pub(crate) mod quadrature;
 mod quartets;
 mod radial;
+mod repeated;
 #[cfg(test)]
 pub(crate) mod samples;
 #[cfg(test)]
@@ -55,6 +57,7 @@ pub use lattice_samples::ResponseChange;
 pub use line_influence::{line_coefficients, line_coefficients_of};
 pub use pair_response::PairResponse;
 pub use periodic::{PeriodicSymbols, periodic_symbols, symbols_by, symbols_of, uniform_response};
+pub use repeated_influence::repeated_coefficients;
 pub use response_table::ResponseTable;
 pub use sampled::sampled_coefficients;
 pub use stack_layer::LayerChanges;

@@ -115,7 +115,7 @@ pub fn left_out(
             &format!("{share} of the solver's fields and transforms"),
         );
     }
-    if !case.periodic && leave_out.takes(Simplification::Region) {
+    if !case.periodic.is_both() && leave_out.takes(Simplification::Region) {
         leave(
             "cells far from the contact, in the iterations",
             "they carry no pressure; overlap there is checked after the active subdomain is solved",
@@ -195,13 +195,13 @@ pub fn one_way(
     (starts_so && (straight || line(axis))).then_some(axis)
 }
 
-/// Whether a case is periodic and nothing in it changes along an axis, or that is the axis of a line contact.
+/// Whether a case is periodic along an axis and nothing in it changes along that, or that is the axis of a line contact.
 fn is_endless(case: &Case, grid: &SurfaceGrid, axis: usize) -> bool {
     if grid.dimension() == Dimension::Line {
         return axis == 1;
     }
     let maps = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
-    case.periodic
+    case.periodic.axes()[axis]
         && maps.into_iter().all(|friction| !friction.is_map())
         && case
             .profile

@@ -51,8 +51,8 @@ const EACH_CELL: usize = 16;
 /// The whole: influence coefficients, and the fields that are handed out. In front of the mirrors: states and gaps, the transformed kernels
 /// of each operator in double and single precision, their work space, and the fields of the iterations. In a case that repeats nothing is
 /// padded, and the inverse is exact. Remembered: increments before the last, from the [third](REMEMBERING) one on.
-fn bytes_per_cell(coupling: Coupling, periodic: bool) -> [usize; 3] {
-    match (coupling, periodic) {
+fn bytes_per_cell(coupling: Coupling, unpadded: bool) -> [usize; 3] {
+    match (coupling, unpadded) {
         (Coupling::Frictionless, false) => [28, 200, 0],
         (Coupling::Frictionless, true) => [10, 142, 0],
         (Coupling::Uncoupled, false) => [50, 376, 60],
@@ -71,7 +71,7 @@ const REMEMBERING: usize = 3;
 /// Within about a tenth of what runs of 512 to 4096 cells per side took whose contact fills the automatic grid; on fewer cells what the process
 /// itself takes decides, and a contact that leaves more room takes less.
 pub fn of_run(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Symmetry) -> usize {
-    let [whole, in_front, remembered] = bytes_per_cell(coupling, case.periodic);
+    let [whole, in_front, remembered] = bytes_per_cell(coupling, case.periodic.is_both());
     let remembered = if case.increments() >= REMEMBERING { remembered } else { 0 };
     let worn = case.wear.as_ref().map_or(0, |wear| match wear.thinning_tolerance {
         None => WEAR,

@@ -20,7 +20,7 @@ use crate::case::{Case, CaseError, CaseRecord, Difference, GridSize};
 use crate::history::Start;
 use crate::kernel::{PairResponse, cells_too_coarse_for_incompressible_film};
 use crate::machine::memory::{MemoryError, claim};
-use crate::model::{Body, ContactState, Dimension, Frame, SurfaceGrid, Symmetry};
+use crate::model::{Body, ContactState, Frame, SurfaceGrid, Symmetry};
 pub use crate::solver::Coupling;
 pub use advance::Advance;
 pub use extent::ExpectedContact;
@@ -43,7 +43,7 @@ pub struct Plan<C = Case> {
     /// The grid.
     pub grid: SurfaceGrid,
     /// Depth below the load of the point that approach and shift are relative to [length], in each body with an elastic base; of a
-    /// line contact alone.
+    /// line contact, and of one that is periodic along one axis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub datum: Option<f64>,
     /// How pressure and shear act on each other.
@@ -120,7 +120,7 @@ impl Plan {
         } else {
             Coupling::Coupled
         };
-        let expected = if case.periodic || !case.beyond.is_body() {
+        let expected = if !case.periodic.is_none() || !case.beyond.is_body() {
             Err(Unexpected::NoContact)
         } else {
             expected_contact(&case)
@@ -154,7 +154,7 @@ impl Plan {
             return Err(case.refuse_size(message, "more cells, or a smaller grid"));
         }
         has_values(&case, &grid)?;
-        if !case.periodic && has_unseen_film(&case, &grid) {
+        if !case.periodic.is_both() && has_unseen_film(&case, &grid) {
             let message = format!(
                 "grid.cells = {:?}: a nearly incompressible film on a stiff base is thinner than a fifth of a cell; it moves \
                  sideways between the cells' centres, where displacements are taken, which the grid cannot resolve",
@@ -166,15 +166,15 @@ impl Plan {
             ));
         }
         let is_given = matches!(case.size, GridSize::Given(_)) || start.is_some();
-        if is_given && !case.periodic && case.beyond.is_body() && reaches_beyond(&case, size) {
+        if is_given && case.periodic.is_none() && case.beyond.is_body() && reaches_beyond(&case, size) {
             let message = format!(
                 "grid.size = {size:?}: the contact under the heaviest load reaches the edge of the grid"
             );
             return Err(case.refuse_size(message, case.way_from_the_edge()));
         }
         in_whole_cells(&case, &grid)?;
-        let has_datum = case.dimension() == Dimension::Line && case.bodies.has_elastic_base();
-        let datum = has_datum.then(|| case.datum.unwrap_or(size[0]));
+        let endless = case.endless_axis().filter(|_| case.bodies.has_elastic_base());
+        let datum = endless.map(|along| case.datum.unwrap_or(size[1 - along]));
         let along = left_out::one_way(&case, &grid, &response, coupling, state)
             .filter(|_| leave_out.takes(Simplification::Transverse));
         // What each body has worn in its own frame is put together like surfaces that move.

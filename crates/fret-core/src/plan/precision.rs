@@ -34,7 +34,7 @@ pub fn single_precision_does(
     let has_friction =
         coupling != Coupling::Coupled || frictions.all(|friction| friction.largest() >= LEAST_FRICTION);
     let alike = softening < ALIKE && softening > 1.0 / ALIKE;
-    !case.periodic
+    case.periodic.is_none()
         && grid.dimension() == Dimension::Plane
         && grid.len() >= LEAST_CELLS
         && alike

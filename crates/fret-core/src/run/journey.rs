@@ -225,7 +225,7 @@ impl<'a> Journey<'a> {
     /// The mean gap that a load prescribes between surfaces that repeat, where it leaves none.
     fn closed_gap(&self, load: &LoadStep) -> Option<f64> {
         let case = self.case();
-        let approach = load.normal.motion().filter(|_| case.periodic)?;
+        let approach = load.normal.motion().filter(|_| case.periodic.is_both())?;
         if uniform_response(&case.bodies).is_some() {
             return None;
         }
@@ -289,9 +289,9 @@ impl<'a> Journey<'a> {
         };
         let wall_s = started.elapsed().as_secs_f64();
         let (friction, symmetry) = (self.solver.solver.friction(), self.plan.symmetry);
-        let repeats = (symmetry, case.periodic);
+        let setting = (symmetry, case.periodic);
         let mut record =
-            record(&solved, (case.springs(), friction, repeats), (increment, stage, parts), wall_s);
+            record(&solved, (case.springs(), friction, setting), (increment, stage, parts), wall_s);
         tell_rates(&mut record, &self.state, &solved.state);
         let kept =
             may_keep.then(|| kept(&solved, (friction, symmetry), increment, &case.output.fields)).transpose();

@@ -88,7 +88,7 @@ impl UpperBody {
 pub fn upper_wear_over_grid(plan: &Plan, state: &ContactState) -> Option<Array2<f64>> {
     let motion = Motion::over(&plan.grid);
     let over = motion.over_grid(motion.place(state.shift, state.twist));
-    let outside = if plan.case.periodic { Outside::Repeats } else { Outside::Zero };
+    let outside = if plan.case.periodic.is_both() { Outside::Repeats } else { Outside::Zero };
     state.upper_worn_depth.as_ref().map(|depth| over.of(depth, outside))
 }
 
@@ -101,7 +101,7 @@ impl Moving {
         Ok(Self {
             grid: plan.grid,
             symmetry: plan.symmetry,
-            repeats: plan.case.periodic,
+            repeats: plan.case.periodic.is_both(),
             motion: Motion::over(&plan.grid),
             profile: plan.case.profile.clone(),
             upper: UpperBody::of(plan, bodies.upper())?,

@@ -7,7 +7,7 @@ use serde_json::json;
 use crate::compliance::SurfaceResponse;
 use crate::kernel::{
     Components, PairResponse, ResponseTable, coefficients_of, influence_coefficients, line_coefficients_of,
-    periodic_symbols, symbols_of,
+    periodic_symbols, repeated_coefficients, symbols_of,
 };
 use crate::model::{ContactPair, Dimension};
 use crate::plan::{Coupling, Plan, Simplification};
@@ -69,7 +69,14 @@ fn response(plan: &Plan, bodies: &ContactPair, wanted: Components) -> SurfaceRes
             &response, bodies, strips, spacing[0], datum, wanted,
         ));
     }
-    match (case.periodic, plain) {
+    if let Some(along) = case.periodic.one_axis() {
+        let datum = plan.datum.unwrap_or(plan.grid.size()[1 - along]);
+        let response = if plain { PairResponse::new(bodies) } else { layered() };
+        let coefficients =
+            repeated_coefficients((bodies, &response), (case.cells, spacing), along, datum, wanted);
+        return SurfaceResponse::FreeSpace(coefficients);
+    }
+    match (case.periodic.is_both(), plain) {
         (true, true) => SurfaceResponse::Periodic(periodic_symbols(bodies, case.cells, spacing, wanted, 0)),
         (true, false) => {
             SurfaceResponse::Periodic(symbols_of(layered(), case.cells, spacing, wanted).with_uniform(bodies))
@@ -87,5 +94,5 @@ fn table(plan: &Plan, bodies: &ContactPair) -> Option<ResponseTable> {
     let [width, depth] = plan.grid.size();
     let [dx, dy] = plan.grid.spacing();
     let [least, greatest] = [TAU / width.max(depth), 5.0 * PI / dx.min(dy)];
-    (!plan.case.periodic).then(|| ResponseTable::new(bodies, least, greatest))
+    (!plan.case.periodic.is_both()).then(|| ResponseTable::new(bodies, least, greatest))
 }

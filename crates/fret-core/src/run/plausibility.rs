@@ -262,7 +262,7 @@ impl Gauge {
                 .map(|end| (over_body(plan, [radius(end); 2]), end.stage)),
         );
         // On a rough surface the approach counts from the highest peak, and on a periodic half-space it has no zero.
-        let strained = || touching().filter(|_| !rough && !plan.case.periodic);
+        let strained = || touching().filter(|_| !rough && plan.case.periodic.is_none());
         look(
             Concern::ApproachOverContactRadius,
             &mut strained().map(|end| (end.approach / radius(end), end.stage)),
@@ -287,7 +287,7 @@ impl Gauge {
         }
         look(Concern::ComplianceSpread, &mut self.spread.into_iter());
         look(Concern::FrictionChangesInOneCycle, &mut self.friction_change.into_iter());
-        if !plan.case.periodic && plan.case.beyond.is_body() {
+        if !plan.case.periodic.is_both() && plan.case.beyond.is_body() {
             look(Concern::ContactNearEdge, &mut touching().map(|end| (end.free as f64, end.stage)));
         }
         found.extend(self.rings.warning(plan));

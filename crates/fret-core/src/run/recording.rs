@@ -5,13 +5,13 @@ use ndarray::Array2;
 use crate::fields::{copied, largest};
 use crate::history::{DebrisRecord, Footprint, KeptFields, PlasticRecord, Residual, StepRecord};
 use crate::machine::memory::MemoryError;
-use crate::model::{CellMap, CellValues, ContactState, CoulombFriction, Rig, Symmetry, Zone};
+use crate::model::{CellMap, CellValues, ContactState, CoulombFriction, Periodicity, Rig, Symmetry, Zone};
 use crate::solver::Increment;
 
 /// The record of a solved increment of surfaces that may repeat; what it has worn is not yet known.
 pub fn record(
     solved: &Increment,
-    (rig, friction, (symmetry, repeats)): (Rig, &CoulombFriction, (Symmetry, bool)),
+    (rig, friction, (symmetry, periodic)): (Rig, &CoulombFriction, (Symmetry, Periodicity)),
     (increment, stage, parts): (usize, usize, usize),
     wall_s: f64,
 ) -> StepRecord {
@@ -29,7 +29,7 @@ pub fn record(
         parts,
         normal_force: outcome.resultants.normal,
         approach: state.approach,
-        mean_gap: repeats.then(|| mean_gap(solved)).flatten(),
+        mean_gap: periodic.is_both().then(|| mean_gap(solved)).flatten(),
         tangential_force: outcome.resultants.tangential,
         shift: state.shift,
         actuator_approach: rig.actuator_approach(state.approach, outcome.resultants.normal),
@@ -46,7 +46,7 @@ pub fn record(
         stick_area: solved.stick_area,
         contact_cells: outcome.contact_cells,
         stick_cells: outcome.stick_cells,
-        footprint: Footprint::of(&state.zone, symmetry),
+        footprint: Footprint::of(&state.zone, symmetry, periodic),
         dissipated_energy: state.dissipated_energy,
         elastic_energy: state.elastic_energy,
         external_work: state.external_work,

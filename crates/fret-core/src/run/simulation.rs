@@ -141,7 +141,7 @@ impl<'a> Simulation<'a> {
             case.wear.as_ref().zip(upper_wear).zip(stiffest.clone()).map(|((rule, collected), stiffest)| {
                 let wearing =
                     Wearing::new(rule.of_body(1), stiffest, Array2::zeros([0, 0]), friction(), collected);
-                (wearing.with_rim(rim(1)), (Motion::over(&plan.grid), case.periodic))
+                (wearing.with_rim(rim(1)), (Motion::over(&plan.grid), case.periodic.is_both()))
             });
         let rule =
             if upper.is_some() { case.wear.as_ref().map(|rule| rule.of_body(0)) } else { case.wear.clone() };
@@ -199,6 +199,7 @@ impl<'a> Simulation<'a> {
         .with_bulk(BulkCompliance::of(&case.bodies, case.dimension()))
         .with_rig(case.springs())
         .with_beyond(case.beyond)
+        .with_periods(case.periodic)
         .with_hardness(case.hardness)
         .with_symmetry(plan.symmetry);
         let solver = if plan.grid.len() < GIVES_BACK {

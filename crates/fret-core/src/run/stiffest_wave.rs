@@ -21,7 +21,7 @@ pub struct StiffestWave {
     /// Area of the whole contact that a cell stands for [length^2].
     cell_area: f64,
     dimension: Dimension,
-    /// Whether waves run through: then all of the period has room for them.
+    /// Whether waves run through, along one axis at least: then all of the period has room for them.
     is_periodic: bool,
     /// Displacement by unit pressure that alternates from cell to cell [length/pressure].
     alternating: f64,
@@ -32,7 +32,8 @@ pub struct StiffestWave {
 impl StiffestWave {
     /// The waves of a planned contact.
     pub fn of(plan: &Plan, compliance: &PairCompliance) -> Self {
-        Self { cell_area: plan.area_of_cell(), ..Self::new(compliance, &plan.grid) }
+        let is_periodic = !plan.case.periodic.is_none();
+        Self { cell_area: plan.area_of_cell(), is_periodic, ..Self::new(compliance, &plan.grid) }
     }
 
     /// The waves on a grid.

@@ -93,7 +93,7 @@ pub fn bodies_left(plan: &Plan, depths: [f64; 2]) -> Result<ContactPair, &'stati
             cells_too_coarse_for_incompressible_film(half_space, plan.grid.spacing())
         }
     };
-    if !plan.case.periodic && (unseen(left.lower()) || unseen(left.upper())) {
+    if !plan.case.periodic.is_both() && (unseen(left.lower()) || unseen(left.upper())) {
         return Err(
             "a nearly incompressible film on a stiff base is worn thinner than a fifth of a cell, which the grid cannot resolve",
         );

@@ -21,7 +21,7 @@ pub(super) fn change_of_response(plan: &Plan, number: BodyNumber) -> SurfaceResp
     };
     let changes: [&[LayerChanges]; 2] = if number.of_upper { [&[], &changes] } else { [&changes, &[]] };
     let (cells, spacing) = (plan.case.cells, plan.grid.spacing());
-    if plan.case.periodic {
+    if plan.case.periodic.is_both() {
         SurfaceResponse::Periodic(symbols_by(bodies, changes, cells, spacing, wanted))
     } else {
         let change = ResponseChange::new(bodies, changes);

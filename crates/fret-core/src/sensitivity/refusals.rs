@@ -15,7 +15,7 @@ pub(super) fn check(plan: &Plan) -> Result<(), SensitivityError> {
     let case = &plan.case;
     let without = "take the derivatives without it";
     // Where a half-space repeats, nothing else moves along the normal.
-    let repeats = case.periodic && uniform_response(&case.bodies).is_none();
+    let repeats = case.periodic.is_both() && uniform_response(&case.bodies).is_none();
     let moves = |stage: &Stage| stage.normal.as_ref().is_some_and(StageControl::is_motion);
     let by_mean_gap = repeats && case.stages.iter().any(moves);
     let refusals = [

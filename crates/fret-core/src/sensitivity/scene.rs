@@ -105,7 +105,7 @@ impl<'a> Scene<'a> {
             spacing: self.grid.spacing(),
             region: self.region.shape,
             grid: self.grid.len(),
-            periodic: self.plan.case.periodic,
+            periodic: self.plan.case.periodic.is_both(),
             frictional: self.is_frictional(),
         })
     }
@@ -186,7 +186,7 @@ pub(super) fn field(region: Region, values: &Array2<f64>) -> Array2<f64> {
 
 /// The cells around all contacts of a history, from the mirrors on; of periodic cases all cells.
 fn region_of(plan: &Plan, cells: [usize; 2], snapshots: &[Snapshot]) -> Region {
-    if plan.case.periodic {
+    if plan.case.periodic.is_both() {
         return Region::whole(cells);
     }
     let touched = |i: usize, j: usize| snapshots.iter().any(|step| step.state.pressure[[i, j]] > 0.0);

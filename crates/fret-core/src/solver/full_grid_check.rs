@@ -84,19 +84,18 @@ impl ContactSolver<'_> {
         0.5 * BEYOND_THE_BODY * (cells_x as f64 * dx).hypot(cells_y as f64 * dy)
     }
 
-    /// Whether there is pressure in an outermost row or column, apart from those at a mirror.
+    /// Whether there is pressure in an outermost row or column, apart from those at a mirror and those where the contact repeats.
     pub(super) fn touches_edge(&self, pressure: &Array2<f64>) -> bool {
         if self.response.is_periodic() {
             return false;
         }
         let mirrored = self.symmetry.axes();
+        let repeats = self.periodic.axes();
         let (nx, ny) = pressure.dim();
         let any = |view: ndarray::ArrayView1<'_, f64>| view.iter().any(|p| *p > 0.0);
-        let across = (!mirrored[0] && any(pressure.row(0))) || any(pressure.row(nx - 1));
+        let across = || (!mirrored[0] && any(pressure.row(0))) || any(pressure.row(nx - 1));
+        let along = || (!mirrored[1] && any(pressure.column(0))) || any(pressure.column(ny - 1));
         // a line contact has no edge along its line
-        if ny == 1 {
-            return across;
-        }
-        across || (!mirrored[1] && any(pressure.column(0))) || any(pressure.column(ny - 1))
+        (!repeats[0] && across()) || (ny > 1 && !repeats[1] && along())
     }
 }

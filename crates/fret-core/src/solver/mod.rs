@@ -55,7 +55,7 @@ use ndarray::Array2;
 use crate::compliance::{SharedWorkspace, SpectralCompliance, SurfaceResponse};
 use crate::kernel::ResponseTable;
 use crate::model::{
-    Beyond, BulkCompliance, ContactState, CoulombFriction, LoadStep, Rig, SurfaceGrid, Symmetry,
+    Beyond, BulkCompliance, ContactState, CoulombFriction, LoadStep, Periodicity, Rig, SurfaceGrid, Symmetry,
 };
 
 pub(crate) use contact_set::ContactSet;
@@ -116,6 +116,8 @@ pub struct ContactSolver<'a> {
     rig: Rig,
     /// What lies beyond the edge of the grid.
     beyond: Beyond,
+    /// Along which axes the grid has no edge.
+    periodic: Periodicity,
     /// Slope of the upper body that is in the gap, and the gap without it.
     tilt: [f64; 2],
     level: Option<Array2<f64>>,
@@ -167,6 +169,7 @@ impl<'a> ContactSolver<'a> {
             bulk: BulkCompliance::NONE,
             rig: Rig::RIGID,
             beyond: Beyond::Body,
+            periodic: Periodicity::NONE,
             tilt: [0.0; 2],
             level: None,
             hardness: None,
@@ -196,6 +199,12 @@ impl<'a> ContactSolver<'a> {
     #[must_use]
     pub fn with_beyond(self, beyond: Beyond) -> Self {
         Self { beyond, ..self }
+    }
+
+    /// The same solver of a contact that repeats along an axis, whose coefficients are those with all images: there the grid has no edge.
+    #[must_use]
+    pub fn with_periods(self, periodic: Periodicity) -> Self {
+        Self { periodic, ..self }
     }
 
     /// The same solver, which also knows the frequency response of the pair: for non-periodic problems, where coefficients on a region

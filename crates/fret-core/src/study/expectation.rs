@@ -79,7 +79,7 @@ const KEPT_BYTE: f64 = 2e-9;
 
 impl Habit {
     fn of(plan: &Plan) -> Self {
-        let [alone, periodic] = [!plan.case.periodic, plan.case.periodic];
+        let [alone, periodic] = [!plan.case.periodic.is_both(), plan.case.periodic.is_both()];
         match plan.coupling {
             Coupling::Frictionless => Self {
                 convolutions: 13.0,

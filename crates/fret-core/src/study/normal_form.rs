@@ -66,7 +66,7 @@ impl NormalForm {
         let has_yielded = plan.start.as_ref().is_some_and(|start| start.solved.state.plastic_depth.is_some());
         let moves = case.kinematics.is_finite() || case.hardness.is_some() || has_yielded;
         let changes = case.wear.is_some() || was_worn || moves || case.tilts(0) || case.tilts(1);
-        if changes || case.periodic || !case.beyond.is_body() {
+        if changes || !case.periodic.is_none() || !case.beyond.is_body() {
             return None;
         }
         let materials: Vec<ElasticMaterial> = materials(&case.bodies)?.into_iter().flatten().collect();

@@ -6,7 +6,7 @@ use super::edge_crack::STEEPEST;
 use super::severity::MostSevere;
 use super::survey::{LoadedSurface, survey};
 use super::tensor::StressTensor;
-use crate::model::{Dimension, HalfSpace, SurfaceGrid};
+use crate::model::{Dimension, HalfSpace, Periodicity, SurfaceGrid};
 use fret_fft::ConvolutionError;
 
 /// Depths at which the stress along a crack is computed, denser towards the surface; interfaces besides.
@@ -84,7 +84,7 @@ impl CrackStart {
 /// Where the crack leaves the grid or enters a rigid base, and when it was stopped.
 pub fn crack_path(
     half_space: &HalfSpace,
-    (grid, periodic): (&SurfaceGrid, bool),
+    (grid, periodic): (&SurfaceGrid, Periodicity),
     start: &CrackStart,
     length: f64,
     cycle: &[LoadedSurface],

@@ -4,11 +4,13 @@ use ndarray::{Array2, ArrayView2, CowArray, Ix2};
 
 use super::depths::DepthPoint;
 use super::tensor::StressField;
-use crate::kernel::depth_cells::{displacement_coefficients, stress_coefficients};
+use crate::kernel::depth_cells::{
+    displacement_coefficients, repeated_stress_coefficients, stress_coefficients,
+};
 use crate::kernel::depth_periodic::{displacement_symbols, stress_symbols};
 use crate::kernel::depth_response::DepthResponse;
 use crate::kernel::line_depth::line_stress_coefficients;
-use crate::model::{HalfSpace, SurfaceGrid};
+use crate::model::{HalfSpace, Periodicity, SurfaceGrid};
 use fret_fft::{Block, Convolution, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol, Workspace};
 
 /// Tractions on the body's surface [pressure], shape `(nx, ny)`, uniform over each cell.
@@ -23,7 +25,7 @@ pub struct Tractions<'a> {
 /// Stress and displacement at one depth of one body, under the centres of the cells.
 ///
 /// In free space: kernels of the whole stack at that depth, tabulated in the distance and integrated over cells, as for the
-/// surface, or over the strips of a line contact (plane strain); at depth 0 they give the stress in the surface itself. In periodic problems: the response at the grid's own
+/// surface, or over the strips of a line contact (plane strain), or with all images where one axis is periodic; at depth 0 they give the stress in the surface itself. In periodic problems: the response at the grid's own
 /// wavenumbers. Exact for tractions that are uniform over each cell (free space), to rounding: about 1e-13 of the largest
 /// traction for contrasts up to 1e4.
 ///
@@ -83,7 +85,7 @@ impl DepthOperator {
         half_space: &HalfSpace,
         point: DepthPoint,
         grid: &SurfaceGrid,
-        periodic: bool,
+        periodic: Periodicity,
         with_shear: bool,
         with_displacement: bool,
     ) -> Result<Self, ConvolutionError> {
@@ -136,7 +138,7 @@ impl DepthOperator {
         apply(&self.planned.stress[1], &mut self.workspace, &input, shear);
     }
 
-    /// Displacement `u_x, u_y, u_z` of the body [length]; `None` when the operator was not made for it, and in line contacts. In periodic problems
+    /// Displacement `u_x, u_y, u_z` of the body [length]; `None` when the operator was not made for it, in line contacts, and where one axis alone is periodic. In periodic problems
     /// without the mean, which a half-space does not determine.
     ///
     /// # Panics
@@ -163,7 +165,7 @@ struct Scene {
     half_space: HalfSpace,
     shape: [usize; 2],
     spacing: [f64; 2],
-    periodic: bool,
+    periodic: Periodicity,
     with_shear: bool,
     with_displacement: bool,
 }
@@ -173,10 +175,12 @@ impl Scene {
     fn plan(&self, point: DepthPoint, memory: &mut Vec<f64>) -> Result<Planned, ConvolutionError> {
         let Self { shape, spacing, periodic, with_shear, .. } = *self;
         let response = DepthResponse::new(&self.half_space, point.layer, point.depth);
-        let coefficients = if periodic {
+        let coefficients = if periodic.is_both() {
             stress_symbols(&response, shape, spacing)
         } else if shape[1] == 1 {
             line_stress_coefficients(&response, shape[0], spacing[0], with_shear)
+        } else if let Some(axis) = periodic.one_axis() {
+            repeated_stress_coefficients(&response, (shape, spacing), axis, with_shear)
         } else {
             stress_coefficients(&response, shape, spacing, with_shear, std::mem::take(memory))
         };
@@ -188,8 +192,9 @@ impl Scene {
         });
         *memory = coefficients.into_memory();
         let [normal, shear] = stress;
-        let displacement = if self.with_displacement && shape[1] > 1 {
-            let coefficients = if periodic {
+        let is_endless = shape[1] == 1 || periodic.one_axis().is_some();
+        let displacement = if self.with_displacement && !is_endless {
+            let coefficients = if periodic.is_both() {
                 displacement_symbols(&response, shape, spacing)
             } else {
                 displacement_coefficients(&response, shape, spacing, std::mem::take(memory))
@@ -216,7 +221,7 @@ impl Scene {
         let blocks: Vec<Block> =
             pairs().enumerate().map(|(number, (load, output))| block(output, load, number)).collect();
         let kernels = pairs().map(|(load, output)| kernel(load, output));
-        Ok(if self.periodic {
+        Ok(if self.periodic.is_both() {
             let symbols: Vec<Symbol<'_>> =
                 kernels.map(|(values, parity)| Symbol { values, parity }).collect();
             DepthProduct::Periodic(PeriodicProduct::new(self.shape, &symbols, &blocks)?)

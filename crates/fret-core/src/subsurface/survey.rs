@@ -7,7 +7,7 @@ use super::depths::DepthPoint;
 use super::even::EvenStress;
 use super::operator::{DepthOperator, Tractions};
 use super::tensor::StressField;
-use crate::model::{Dimension, HalfSpace, SurfaceGrid};
+use crate::model::{Dimension, HalfSpace, Periodicity, SurfaceGrid};
 use fret_fft::ConvolutionError;
 
 /// What acts on the surface of the body in one increment, shape `(nx, ny)`.
@@ -32,15 +32,16 @@ pub struct LoadedSurface {
 /// As [`survey`].
 ///
 /// # Panics
-/// In a line contact, whose displacements need a datum.
+/// In a line contact and one that is periodic along one axis, whose displacements need a datum.
 pub fn displacements(
     half_space: &HalfSpace,
-    (grid, periodic): (&SurfaceGrid, bool),
+    (grid, periodic): (&SurfaceGrid, Periodicity),
     points: &[DepthPoint],
     tractions: &Tractions<'_>,
     mut visit: impl FnMut(usize, [Array2<f64>; 3]),
 ) -> Result<(), ConvolutionError> {
-    assert!(grid.dimension() == Dimension::Plane, "displacements of a line contact need a datum");
+    let is_endless = grid.dimension() == Dimension::Line || periodic.one_axis().is_some();
+    assert!(!is_endless, "displacements of a contact without end along one axis need a datum");
     let Some(&first) = points.first() else { return Ok(()) };
     let with_shear = tractions.shear.is_some();
     let mut operator = DepthOperator::new(half_space, first, grid, periodic, with_shear, true)?;
@@ -63,7 +64,7 @@ pub fn displacements(
 pub fn survey(
     half_space: &HalfSpace,
     grid: &SurfaceGrid,
-    periodic: bool,
+    periodic: Periodicity,
     points: &[DepthPoint],
     surfaces: &[LoadedSurface],
     mut visit: impl FnMut(usize, usize, &StressField) -> bool,

@@ -29,7 +29,10 @@ pub fn question(view: &Overview<'_>) -> Markup {
     ];
     let [nx, ny] = view.results.fields.cells();
     let [dx, dy] = view.results.fields.spacing().map(|side| view.number(side, "length"));
-    let repeats = if case.periodic { ", periodic in x and y" } else { "" };
+    let repeats = match case.periodic.in_words() {
+        "" => String::new(),
+        words => format!(", {words}"),
+    };
     rows.push(match view.dimension() {
         Dimension::Plane => ("grid".to_owned(), words(&format!("{nx} × {ny} cells of {dx} × {dy}{repeats}"))),
         Dimension::Line => {

@@ -58,7 +58,7 @@ impl<'a> Indenter<'a> {
         if case.hardness.is_some() {
             return Err(refusal("has a hardness: the curve is fitted with elastic surfaces", "leave it out"));
         }
-        if case.periodic || case.is_line() {
+        if !case.periodic.is_none() || case.is_line() {
             let what = "has no depth of its own: an indenter presses one contact that ends";
             return Err(refusal(what, "grid.cells = [nx, ny], without grid.periodic"));
         }
