@@ -12,12 +12,9 @@ mod overview;
 pub mod study;
 pub mod sweep;
 mod window;
-
-use std::fs;
-use std::path::Path;
+mod written;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use serde::de::DeserializeOwned;
 
 use crate::drawing;
 use crate::failure::Failure;
@@ -27,6 +24,7 @@ pub use measured::Measured;
 use overview::Overview;
 pub use sweep::called;
 pub use window::{Part, Window};
+pub use written::read_answer;
 
 /// The style of the page.
 const STYLE: &str = include_str!("page.css");
@@ -45,13 +43,6 @@ pub fn page(results: &Results) -> Result<String, Failure> {
 /// A page with the style, the script and the limits of all.
 pub fn whole_page(title: &str, content: &Markup) -> String {
     page_with(title, content, &PageParts { policy: POLICY, style: "", script: SCRIPT })
-}
-
-/// An answer of another command, as it was written; `again` says what to do where it cannot be read.
-pub fn read_answer<T: DeserializeOwned>(path: &Path, again: &str) -> Result<T, Failure> {
-    let refuse = |why: String| Failure::Call(format!("{}: {why}", path.display()), again.to_owned());
-    let text = fs::read(path).map_err(|error| refuse(error.to_string()))?;
-    serde_json::from_slice(&text).map_err(|error| refuse(format!("cannot be read: {error}")))
 }
 
 /// What a page has of its own.
