@@ -411,10 +411,10 @@ class History:
         body : {"lower", "upper"}
             The body.
         displacement : bool
-            Also compute displacements, at depth 0 those of the surface; not of line contacts, nor where one axis alone is periodic. They are those of the
-            tractions alone, without the strain of bulk and residual stress, and periodic ones without their mean. The
-            relative displacement of the surfaces along z is the sum of both bodies', along x and y that of the lower
-            less that of the upper body.
+            Also compute displacements, at depth 0 those of the surface; not of line contacts, nor where one axis alone
+            is periodic. They are those of the tractions alone, without the strain of bulk and residual stress, and
+            periodic ones without their mean. The relative displacement of the surfaces along z is the sum of both
+            bodies', along x and y that of the lower less that of the upper body.
         threads : int, optional
             Worker threads. Default: all cores. The result is the same for any number.
 

@@ -2,7 +2,7 @@
 
 use fret_core::model::{Axis, Periodicity};
 use pyo3::exceptions::PyValueError;
-use pyo3::prelude::{Borrowed, FromPyObject, PyAny, PyAnyMethods, PyErr};
+use pyo3::prelude::{Borrowed, FromPyObject, PyAny, PyErr};
 
 /// `False`, `True`, `"x"` or `"y"`.
 #[derive(Clone, Copy)]

@@ -28,7 +28,7 @@ use super::substrates::bulk_and_tilt;
 use super::wearing::wear;
 use crate::document::{At, Mistake, Places};
 use crate::model::stage::Stage;
-use crate::model::{CoulombFriction, Dimension, Displacement, Periodicity, Profile, Shape};
+use crate::model::{CoulombFriction, Dimension, Displacement, Profile, Shape};
 use crate::units::Units;
 
 /// Cells along one side of the grid, at the least.
@@ -81,12 +81,7 @@ pub(super) fn case(
         line(&mut judge, &file.grid, loading, profile.as_ref());
         motion_without_datum(&mut judge, &file.grid, size, stages.as_deref(), bodies.as_ref());
     }
-    let periodic = match dimension {
-        Dimension::Line => Periodicity::NONE,
-        Dimension::Plane => {
-            repeats(&mut judge, (&file.grid, cells, size), loading, profile.as_ref(), bodies.as_ref())
-        }
-    };
+    let periodic = repeats(&mut judge, (&file.grid, cells, size), loading, profile.as_ref(), bodies.as_ref());
     bulk_and_tilt(&mut judge, &file.grid, loading, bodies.as_ref(), size);
     let mapped = friction.iter().chain(changes.iter().flatten().flatten()).any(CoulombFriction::is_map);
     if periodic.is_none() {

@@ -7,7 +7,7 @@ use super::line::ROTATION;
 use super::misfits::{Loading, Misfit};
 use crate::kernel::uniform_response;
 use crate::model::controls::{NORMAL, TANGENTIAL, TWIST};
-use crate::model::{ContactPair, Periodicity, Profile, Shape};
+use crate::model::{ContactPair, Dimension, Periodicity, Profile, Shape};
 
 /// Cells per wave from which on a wave is resolved; fewer are warned of.
 pub const CELLS_PER_WAVE: f64 = 6.0;
@@ -19,7 +19,7 @@ const MOTIONS: [Misfit; 2] = [
     Misfit { freedoms: TANGENTIAL..TWIST, motions: true, in_table: "a shift" },
 ];
 
-/// Along which axes the scene repeats; refuses what has no meaning then.
+/// Along which axes the scene repeats, a line contact along none; refuses what has no meaning then.
 pub(super) fn repeats(
     judge: &mut Judge,
     (grid, cells, size): (&GridFile, Option<[usize; 2]>, Option<GridSize>),
@@ -27,6 +27,9 @@ pub(super) fn repeats(
     profile: Option<&Profile>,
     bodies: Option<&ContactPair>,
 ) -> Periodicity {
+    if judge.dimension == Dimension::Line {
+        return Periodicity::NONE;
+    }
     let periodic = grid.periodicity();
     if let Some(profile) = profile {
         endless(judge, grid, profile);

@@ -104,7 +104,9 @@ fn fold(single: &[f64], weights: &[f64], is_odd: bool, uniform: f64, row: &mut [
         row[place] = ahead[place] + ahead[period - place];
     }
     let missing = (uniform - row.iter().sum::<f64>()) / period as f64;
-    row.iter_mut().for_each(|value| *value += missing);
+    for value in row {
+        *value += missing;
+    }
 }
 
 #[cfg(test)]
