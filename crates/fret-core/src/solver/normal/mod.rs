@@ -5,8 +5,11 @@ pub mod coarse_grids;
 mod equations;
 mod first_pressure;
 pub mod grid_transfer;
+mod near_inverse;
 mod problem;
 mod projected_cg;
+mod response;
+mod sparse;
 mod yielding;
 
 use super::laws::complementarity::NormalResidual;
@@ -67,6 +70,13 @@ pub fn solve_normal(
     {
         let own = operators.compliance.self_influence().normal;
         pressure.copy_from_slice(&first_pressure(task, own));
+    }
+    let plain = task.tilt().is_none() && task.load.hardness.is_none() && task.load.give == 0.0;
+    if plain && !operators.preconditioner.is_stiff() {
+        let fields = [&mut *pressure, &mut *displacement];
+        if let Some(solution) = sparse::solve(task, fields, operators, settings.tolerance, callback)? {
+            return Ok(solution);
+        }
     }
     let fields = [pressure, displacement];
     let mut by_active_set = operators.preconditioner.is_stiff();
