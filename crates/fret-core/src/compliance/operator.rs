@@ -17,12 +17,6 @@ pub trait SurfaceCompliance {
     /// All displacements `[normal, along x, along y]` from all tractions `[pressure, along x, along y]`.
     fn full(&mut self, tractions: [&[f64]; 3], displacements: [&mut [f64]; 3]);
 
-    /// [`normal`](Self::normal) in single precision, for pressure of a size near one, whether or not a solver does with it elsewhere; `None` where
-    /// double precision is operators.
-    fn normal_single(&mut self) -> Option<SinglePrecisionOperator<'_>> {
-        None
-    }
-
     /// [`tangential`](Self::tangential) in single precision, for shear of a size near one; `None` where double precision is operators.
     fn tangential_single(&mut self) -> Option<SinglePrecisionOperator<'_>> {
         None

@@ -38,7 +38,6 @@ fn add_give(give: &[f64], pressure: &[f64], normal: &mut [f64]) {
 #[derive(Default)]
 struct Singles {
     wanted: bool,
-    normal: Option<SingleProduct>,
     tangential: Option<SingleProduct>,
     full: Option<SingleProduct>,
 }
@@ -179,7 +178,7 @@ impl SpectralCompliance {
     /// Memory of the operators and of the work space [bytes].
     pub fn memory_bytes(&self) -> usize {
         let products = [&self.normal, &self.tangential, &self.full, &self.normal_from_all];
-        let singles = [&self.single.normal, &self.single.tangential, &self.single.full];
+        let singles = [&self.single.tangential, &self.single.full];
         products.into_iter().flatten().map(Product::memory_bytes).sum::<usize>()
             + singles.into_iter().flatten().map(SingleProduct::memory_bytes).sum::<usize>()
             + self.workspace.memory_bytes()
@@ -236,12 +235,6 @@ impl SurfaceCompliance for SpectralCompliance {
             self.normal(pressure, normal);
             self.tangential([from_x, from_y], [to_x, to_y]);
         }
-    }
-
-    fn normal_single(&mut self) -> Option<SinglePrecisionOperator<'_>> {
-        let Self { single, normal, workspace, give, applications, .. } = self;
-        let product = made(&mut single.normal, normal.as_ref(), true)?;
-        Some(SinglePrecisionOperator { product, workspace, shear_axis: None, give, applications })
     }
 
     fn tangential_single(&mut self) -> Option<SinglePrecisionOperator<'_>> {

@@ -43,11 +43,6 @@ impl ContactSet {
         self.runs.iter().cloned().flatten()
     }
 
-    /// The cells, as runs.
-    pub fn runs(&self) -> &[Range<usize>] {
-        &self.runs
-    }
-
     /// A packed copy of a field of the region.
     pub fn packed(&self, field: &[f64]) -> Vec<f64> {
         let mut packed = vec![0.0; self.len];
