@@ -22,7 +22,7 @@ pub struct SparseResponse {
 }
 
 impl SparseResponse {
-    /// Of the operators of a region; `None` where there is none: behind mirrors, and on odd or short sides.
+    /// Of the operators of a region; `None` where there is none: behind mirrors, and on odd or short sides, of lengths that have no product in single precision.
     pub fn of(operators: &mut RegionOperators) -> Option<Self> {
         let (shape, periodic) = (operators.region.shape, operators.is_periodic);
         let may_be = |cells: usize| cells.is_multiple_of(2) && cells >= 8 * REACH;

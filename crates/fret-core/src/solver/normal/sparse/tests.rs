@@ -11,7 +11,7 @@ use crate::solver::laws::rigid_motions::CellPositions;
 use crate::solver::prescribed::NormalLoad;
 use crate::solver::region::Region;
 
-const SHAPE: [usize; 2] = [128, 130];
+const SHAPE: [usize; 2] = [128, 160];
 
 /// A half-space under a coating twice as stiff, of two cells.
 fn responses() -> [SurfaceResponse; 2] {
@@ -68,7 +68,7 @@ fn displacements_are_about_those_of_the_whole_region() {
         // Clusters, two of them at the ends of the region.
         let cells = ContactSet::of(all, |cell| {
             let [i, j] = [cell / SHAPE[1], cell % SHAPE[1]];
-            [[0, 40], [64, 64], [127, 41], [90, 129], [91, 0]]
+            [[0, 40], [64, 64], [127, 41], [90, 159], [91, 0]]
                 .iter()
                 .any(|[x, y]: &[usize; 2]| i.abs_diff(*x) < 4 && j.abs_diff(*y) < 3)
         });
@@ -96,7 +96,7 @@ fn the_solution_is_that_on_all_cells() {
     let positions = CellPositions::new(vec![0.0], vec![0.0], false);
     let tolerance = 1e-9;
     for response in responses() {
-        for (total, approach) in [(Some(60.0), 0.0), (None, 1.5)] {
+        for (total, approach) in [(Some(150.0), 0.0), (None, 5.0)] {
             let load = NormalLoad { total, approach, give: 0.0, moment: [None; 2], hardness: None };
             let task = NormalEquations { undeformed: &undeformed, load, positions: &positions };
             let mut operators = operators(&response);
@@ -116,7 +116,7 @@ fn the_solution_is_that_on_all_cells() {
             let solution = solve(&task, fields, &mut operators, tolerance, &mut heard).unwrap().unwrap();
             assert!(solution.residual.residual < tolerance);
             let loaded = plain.iter().filter(|p| **p > 0.0).count();
-            assert!((50..400).contains(&loaded), "{loaded}"); // sparse, and a contact
+            assert!((50..800).contains(&loaded), "{loaded}"); // sparse, and a contact
             let most = plain.iter().copied().fold(0.0, f64::max);
             for (found, exact) in pressure.iter().zip(&plain) {
                 // Violations of 1e-9 of the mean displacement, of which a cell's own is a tenth or more.
