@@ -1,6 +1,6 @@
 //! Heights of a measured or synthetic surface, one for every cell.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use ndarray::Array2;
 use schemars::JsonSchema;
@@ -28,8 +28,21 @@ pub enum Detrend {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Heights {
     source: String,
-    depths: Arc<Array2<f64>>,
+    depths: Arc<Depths>,
     treatment: Option<Box<Treatment>>,
+}
+
+/// Depths below the highest point [length], and a hash of them, found when it is first asked for.
+#[derive(Debug)]
+struct Depths {
+    values: Array2<f64>,
+    hash: OnceLock<String>,
+}
+
+impl PartialEq for Depths {
+    fn eq(&self, other: &Self) -> bool {
+        self.values == other.values
+    }
 }
 
 impl Detrend {
@@ -59,7 +72,8 @@ impl Heights {
         detrend.remove_from(&mut heights);
         let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         heights.mapv_inplace(|height| highest - height);
-        Ok(Self { source: source.to_owned(), depths: Arc::new(heights), treatment: None })
+        let depths = Depths { values: heights, hash: OnceLock::new() };
+        Ok(Self { source: source.to_owned(), depths: Arc::new(depths), treatment: None })
     }
 
     /// The same with the record of what was done to them.
@@ -80,20 +94,20 @@ impl Heights {
 
     /// Depth of every cell below the highest point [length], shape `(nx, ny)`.
     pub fn depths(&self) -> &Array2<f64> {
-        &self.depths
+        &self.depths.values
     }
 
     /// Number of cells `[nx, ny]`.
     pub fn cells(&self) -> [usize; 2] {
-        let (nx, ny) = self.depths.dim();
+        let (nx, ny) = self.depths().dim();
         [nx, ny]
     }
 
     /// Root mean square of the heights about their mean [length].
     pub fn rms(&self) -> f64 {
-        let count = self.depths.len() as f64;
-        let mean = self.depths.sum() / count;
-        (self.depths.iter().map(|depth| (depth - mean).powi(2)).sum::<f64>() / count).sqrt()
+        let count = self.depths().len() as f64;
+        let mean = self.depths().sum() / count;
+        (self.depths().iter().map(|depth| (depth - mean).powi(2)).sum::<f64>() / count).sqrt()
     }
 }
 
@@ -117,8 +131,9 @@ pub struct HeightsSummary {
 
 impl Serialize for Heights {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let valley = self.depths.iter().copied().fold(0.0, f64::max);
-        let (source, fnv1a64) = (self.source.clone(), fingerprint(&self.depths));
+        let valley = self.depths().iter().copied().fold(0.0, f64::max);
+        let hash = self.depths.hash.get_or_init(|| fingerprint(self.depths()));
+        let (source, fnv1a64) = (self.source.clone(), hash.clone());
         let (cells, rms, treatment) = (self.cells(), self.rms(), self.treatment().cloned());
         HeightsSummary { source, cells, rms, valley, fnv1a64, treatment }.serialize(serializer)
     }

@@ -15,7 +15,7 @@ use ndarray::Array2;
 
 pub use comments::{Skipped, is_comment};
 pub use error::NumbersError;
-pub use head::{Head, head};
+pub use head::Head;
 pub use letters::{NoText, letters};
 pub use word::{NoNumber, number};
 
@@ -35,6 +35,14 @@ pub fn numbers(bytes: &[u8]) -> Result<Array2<f64>, NumbersError> {
 /// As [`numbers`].
 pub fn numbers_with_holes(bytes: &[u8]) -> Result<Array2<f64>, NumbersError> {
     read(bytes, true)
+}
+
+/// What the lines above the numbers of a text say; of anything else nothing.
+pub fn head(bytes: &[u8]) -> Head {
+    if bytes.starts_with(npy::MAGIC) {
+        return Head::default();
+    }
+    letters(bytes).map_or_else(|_| Head::default(), |text| head::head(&text))
 }
 
 fn read(bytes: &[u8], takes_holes: bool) -> Result<Array2<f64>, NumbersError> {

@@ -4,6 +4,7 @@ use std::mem::take;
 
 use super::linear::preconditioner::{CellWaves, Preconditioner};
 use super::linear::solver::LinearSolver;
+use super::normal::SparseResponse;
 use super::outcome::Work;
 use super::region::Region;
 use super::settings::SolverSettings;
@@ -20,6 +21,11 @@ pub struct RegionOperators {
     pub preconditioner: Preconditioner,
     /// Solver of linearised problems.
     pub linear: LinearSolver,
+    /// The response to pressure of some cells, where it was made.
+    pub sparse: Option<SparseResponse>,
+    /// How many cells of the whole contact each cell stands for, and whether the scene repeats.
+    pub copies: usize,
+    pub is_periodic: bool,
     /// Work on coarser grids since the work was taken last, their cells counted as those of the region.
     pub coarse_work: Work,
     /// Steps of Newton's method with iterates that need not be feasible since the work was taken last.
@@ -45,9 +51,18 @@ impl RegionOperators {
             compliance: compliance.working_in(workspace),
             preconditioner: preconditioner.working_in(workspace),
             linear: LinearSolver::default(),
+            sparse: None,
+            copies: operators.symmetry.copies(),
+            is_periodic: response.is_periodic(),
             coarse_work: Work::default(),
             augmented_steps: 0,
         })
+    }
+
+    /// Keeps the response of some cells, and counts its work.
+    pub fn take_sparse(&mut self, mut response: SparseResponse) {
+        self.coarse_work += response.take_work();
+        self.sparse = Some(response);
     }
 
     /// The work since it was taken last; the region counts as this `fraction` of the whole grid.

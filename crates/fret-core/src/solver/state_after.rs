@@ -28,7 +28,7 @@ pub(super) fn state_after(
     let contact = ContactSet::loaded(pressure);
     let law = problem.friction.packed(&contact);
     let bound = law.bound(&contact.packed(pressure)).bound;
-    let bound_before = law.bound(&contact.packed(&region.gather(&before.pressure))).bound;
+    let bound_before = law.bound(&contact.packed(&region.gathered(&before.pressure))).bound;
     let shear = contact.packed_tangential(&solved.tractions.shear);
     let slip = contact.packed_tangential(&solution.slip);
     let end_slip = contact.packed_tangential(&solution.end_slip);

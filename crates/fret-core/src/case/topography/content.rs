@@ -7,7 +7,7 @@ use ndarray::Array2;
 use super::keys::TreatmentFile;
 use super::scan::Scan;
 use crate::case::judge::Judge;
-use crate::numbers::{Head, NumbersError, head, letters, numbers, numbers_with_holes};
+use crate::numbers::{Head, NumbersError, head, numbers, numbers_with_holes};
 
 /// What to do about points without a measurement.
 pub(in crate::case) const FILL: &str = "fill = \"harmonic\" fills points without a measurement from those around them; or fill them in the program of the instrument";
@@ -51,8 +51,7 @@ pub(in crate::case) fn content(
     let is_instruments = is_of_an_instrument(name);
     let error = match read {
         Ok(array) if !is_instruments => {
-            let head = letters(&bytes).map_or_else(|_| Head::default(), |text| head(&text));
-            return Some(Content::Numbers(array, head));
+            return Some(Content::Numbers(array, head(&bytes)));
         }
         Ok(_) => None,
         Err(error) => Some(error),

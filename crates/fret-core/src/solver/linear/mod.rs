@@ -3,7 +3,7 @@
 
 mod edge_correction;
 mod gmres;
-mod inverse;
+pub mod inverse;
 pub mod preconditioner;
 pub mod problem;
 mod rigid_projector;

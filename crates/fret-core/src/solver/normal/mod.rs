@@ -7,6 +7,8 @@ mod first_pressure;
 pub mod grid_transfer;
 mod problem;
 mod projected_cg;
+mod response;
+mod sparse;
 mod yielding;
 
 use super::laws::complementarity::NormalResidual;
@@ -19,6 +21,7 @@ use active_set::Care;
 pub use equations::NormalEquations;
 pub use first_pressure::first_pressure;
 use problem::{Ending, NormalIteration};
+pub use sparse::SparseResponse;
 
 /// What the normal solver reached.
 #[derive(Debug)]
@@ -68,8 +71,14 @@ pub fn solve_normal(
         let own = operators.compliance.self_influence().normal;
         pressure.copy_from_slice(&first_pressure(task, own));
     }
-    let fields = [pressure, displacement];
     let mut by_active_set = operators.preconditioner.is_stiff();
+    if !by_active_set {
+        let fields = [&mut *pressure, &mut *displacement];
+        if let Some(solution) = sparse::solve(task, fields, operators, settings.tolerance, callback)? {
+            return Ok(solution);
+        }
+    }
+    let fields = [pressure, displacement];
     let mut problem = NormalIteration::new(task, fields, operators, settings.tolerance, callback);
     let mut max_stalled = MAX_STALLED;
     let mut care = Care::default();

@@ -1,15 +1,14 @@
-//! The frictionless problem in a region: the fields both iterations work on, and how they report.
+//! The frictionless problem in a region or on some of its cells: the fields both iterations work on, and how they report.
 
 use super::super::laws::complementarity::{CellLaw, NormalResidual, height_below, length_scale};
 use super::super::laws::projection::project_pressure;
 use super::super::laws::tilt_motions::TiltMotions;
-use super::super::operators::RegionOperators;
 use super::super::prescribed::NormalLoad;
 use super::super::settings::{IterationCallback, SolveError};
 use super::equations::NormalEquations;
 use super::first_pressure::first_pressure;
+use super::response::NormalResponse;
 use super::yielding;
-use crate::compliance::SurfaceCompliance;
 use crate::fields::{CellRule, Reals, each_cell, lower};
 
 /// Iterations at the most, of both methods together.
@@ -24,7 +23,7 @@ pub enum Ending {
     Stalled,
 }
 
-/// Unknowns, work fields and operators of one normal problem. Fields are flat rows of one length, made once.
+/// Unknowns, work fields and response of one normal problem. Fields are flat rows of one length, made once.
 pub struct NormalIteration<'a> {
     pub task: &'a NormalEquations<'a>,
     /// Pressure [pressure].
@@ -45,7 +44,7 @@ pub struct NormalIteration<'a> {
     /// The change before, and its displacement.
     pub last_change: Vec<f64>,
     pub last_image: Vec<f64>,
-    operators: &'a mut RegionOperators,
+    response: &'a mut dyn NormalResponse,
     /// Influence of a cell on itself [length/pressure].
     pub self_influence: f64,
     pub tolerance: f64,
@@ -65,12 +64,12 @@ impl<'a> NormalIteration<'a> {
     pub fn new(
         task: &'a NormalEquations<'a>,
         [pressure, displacement]: [&'a mut [f64]; 2],
-        operators: &'a mut RegionOperators,
+        response: &'a mut dyn NormalResponse,
         tolerance: f64,
         callback: IterationCallback<'a>,
     ) -> Self {
         let field = || vec![0.0; task.undeformed.len()];
-        operators.compliance.normal(pressure, displacement);
+        response.displacement(pressure, displacement);
         lower(displacement, -task.load.given_way(pressure));
         Self {
             gap: field(),
@@ -81,7 +80,7 @@ impl<'a> NormalIteration<'a> {
             image: field(),
             last_change: field(),
             last_image: field(),
-            self_influence: operators.compliance.self_influence().normal,
+            self_influence: response.self_influence(),
             tolerance,
             tilt: task.tilt(),
             turned: [0.0; 2],
@@ -91,7 +90,7 @@ impl<'a> NormalIteration<'a> {
             task,
             pressure,
             displacement,
-            operators,
+            response,
             callback,
         }
     }
@@ -114,20 +113,20 @@ impl<'a> NormalIteration<'a> {
     /// `image` becomes the displacement of `change`.
     pub fn convolve_change(&mut self) {
         self.iterations += 1;
-        self.operators.compliance.normal(&self.change, &mut self.image);
+        self.response.displacement(&self.change, &mut self.image);
         lower(&mut self.image, -self.task.load.given_way(&self.change));
     }
 
     /// `displacement` becomes that of `pressure`.
     pub fn convolve_pressure(&mut self) {
         self.iterations += 1;
-        self.operators.compliance.normal(self.pressure, self.displacement);
+        self.response.displacement(self.pressure, self.displacement);
         lower(self.displacement, -self.task.load.given_way(self.pressure));
     }
 
     /// `steepest` becomes the preconditioned residual, on all cells.
     pub fn precondition(&mut self) {
-        self.operators.preconditioner.normal(&self.residual, &mut self.steepest);
+        self.response.inverse(&self.residual, &mut self.steepest);
     }
 
     /// Tilts the body so that the cells with weights are nearest to one height, where a moment is prescribed.
