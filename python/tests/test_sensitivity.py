@@ -64,12 +64,17 @@ def test_cells_about_to_change_their_state_are_told() -> None:
     history = fretting.run({**turned, "output": {"fields": ["pressure", "zone"], "every": 1}})
     pressed, slipped = history.field("pressure", 7) > 0, history.field("zone", 7) == 2
     for by in ("profile.sphere.radius", ["profile.sphere.radius", "friction.coefficient"]):  # forward, backwards
-        near = fretting.gradient(turned, of="max_pressure", by=by).near_events
+        found = fretting.gradient(turned, of="max_pressure", by=by)
+        near, other = found.near_events, found.on_the_other_side
         assert near is not None
+        assert other is not None
+        assert set(other["max_pressure"]) == set(found["max_pressure"]) - {"value"}
         assert near.increment == 8
         assert (near.cells, near.contact_cells) == (slipped.sum(), pressed.sum())
         assert near.share == pytest.approx(slipped.sum() / pressed.sum())
-        assert fretting.gradient(turned, of="increments[7].max_pressure", by=by).near_events is None
+        before = fretting.gradient(turned, of="increments[7].max_pressure", by=by)
+        assert before.near_events is None
+        assert before.on_the_other_side is None
 
 
 def test_without_names_all_numbers_are_taken() -> None:

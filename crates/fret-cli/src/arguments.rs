@@ -112,8 +112,8 @@ pub enum Verb {
 pub struct SensitivityArguments {
     /// The case file (TOML); - reads it from standard input
     pub case: PathBuf,
-    /// A result: a column of the last increment (`max_pressure`), of another (`increments[7].shift_x`), or the energy of a cycle
-    /// (`cycles[0].dissipated_energy`); once for each [default: `max_pressure`, `approach`, and with friction `max_shear`, `dissipated_energy`]
+    /// A result: a column of the last increment (`max_pressure`), of another (`increments[7].shift_x`), the energy of a cycle
+    /// (`cycles[0].dissipated_energy`), a stress below the surface or a fatigue parameter (`stress.interface_shear`, `fatigue.crossland`); once for each [default: `max_pressure`, `approach`, and with friction `max_shear`, `dissipated_energy`]
     #[arg(long, value_name = "RESULT")]
     pub of: Vec<String>,
     /// A number of the case by its path (`friction.coefficient`, `lower.coatings[0].young`); once for each [default: all there are, or those

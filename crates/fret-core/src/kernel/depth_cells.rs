@@ -3,6 +3,7 @@
 use super::cell_integrals::Moments;
 use super::cells::{CellCoefficients, Tables, coefficients};
 use super::depth_response::DepthResponse;
+use super::lattice_samples::WaveResponse;
 use super::quartets::{DisplacementFromAll, StressFromAll, StressFromPressure};
 
 /// xx, yy, zz, xy, xz, yz when x and y are exchanged.
@@ -10,7 +11,7 @@ const STRESS_EXCHANGED: [usize; 6] = [1, 0, 2, 3, 5, 4];
 
 /// Stress coefficients of one depth on a grid; shear is left out where it is not wanted. `memory` is written over.
 pub(crate) fn stress_coefficients(
-    response: &DepthResponse,
+    response: &impl WaveResponse,
     cells: [usize; 2],
     spacing: [f64; 2],
     with_shear: bool,

@@ -30,7 +30,7 @@ pub(super) fn change_of_response(plan: &Plan, number: BodyNumber) -> SurfaceResp
 }
 
 /// Derivatives of the constants of all layers of a body by one of them, from the surface down, those of the substrate last.
-fn changes_of(half_space: &HalfSpace, number: BodyNumber) -> Vec<LayerChanges> {
+pub(super) fn changes_of(half_space: &HalfSpace, number: BodyNumber) -> Vec<LayerChanges> {
     let coatings = half_space.coatings();
     let mut changes = vec![LayerChanges::default(); coatings.len() + 1];
     let index = number.coating.unwrap_or(coatings.len());

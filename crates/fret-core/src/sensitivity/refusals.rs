@@ -53,6 +53,11 @@ pub(super) fn check_request(
     let refused = |parameter: &Parameter, reason: &str| {
         Err(SensitivityError::Parameter { path: parameter.path().to_owned(), reason: reason.to_owned() })
     };
+    let below = || objectives.iter().filter(|objective| objective.is_below());
+    if let Some((objective, reason)) = below().find_map(|of| Some((of, of.missing_below(plan)?))) {
+        return Err(SensitivityError::Objective { name: objective.column().to_owned(), reason });
+    }
+    let fields = fields || below().next().is_some();
     for parameter in parameters {
         if parameter.is_a_load() && parameter.value() == 0.0 && (plan.symmetry.any() || plan.along.is_some())
         {
@@ -75,8 +80,8 @@ pub(super) fn check_request(
             if fields {
                 return refused(
                     parameter,
-                    "pressure and shear of these bodies do not act on each other, but with another value they would: fields have no derivative \
-                     here: give one of the bodies a slightly different constant",
+                    "pressure and shear of these bodies do not act on each other, but with another value they would: fields, and stresses below the surface, \
+                     have no derivative here: give one of the bodies a slightly different constant",
                 );
             }
             if let Some(odd) = objectives.iter().find(|objective| ODD.contains(&objective.column())) {

@@ -6,7 +6,8 @@ use super::fields::zeros;
 use super::loads::{Load, Prescribed};
 use super::operators::Operators;
 use super::rule::{Cells, Rule};
-use super::scene::{Scene, Snapshot};
+use super::scene::Scene;
+use super::snapshot::Snapshot;
 use super::solved::{Solved, at, deep_by, moved_by};
 use crate::model::{ContactState, Zone};
 use crate::solver::{ContactSet, rate_since_touch};
@@ -14,7 +15,7 @@ use crate::solver::{ContactSet, rate_since_touch};
 /// Goes through a history again, increment by increment.
 pub(super) struct Replay<'a> {
     scene: &'a Scene<'a>,
-    prescribed: Prescribed<'a>,
+    pub prescribed: Prescribed<'a>,
     untouched: ContactState,
     pub start: Solved,
 }
@@ -56,7 +57,7 @@ fn solved(
     (load, [before, former]): (&Load, [&Solved; 2]),
     operators: &mut Operators,
 ) -> Solved {
-    let Snapshot { record, state } = snapshot;
+    let (record, state) = (&snapshot.record, &snapshot.state());
     let region = scene.region;
     let tractions = [&state.pressure, &state.shear[0], &state.shear[1]].map(|field| region.gather(field));
     let moved = if tractions[0].iter().any(|p| *p > 0.0) {

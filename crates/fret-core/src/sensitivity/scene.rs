@@ -1,5 +1,4 @@
-//! What stays the same along a history whose derivatives are taken: grid, region, gap, symmetry, machine; and its increments as they were
-//! solved.
+//! What stays the same along a history whose derivatives are taken: grid, region, gap, symmetry, machine.
 
 use std::sync::Arc;
 
@@ -9,8 +8,8 @@ use super::cell::MOTIONS;
 use super::change::Reached;
 use super::error::SensitivityError;
 use super::operators::{Made, Operators};
+use super::snapshot::Snapshot;
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceResponse};
-use crate::history::StepRecord;
 use crate::model::{ContactState, Rig, SurfaceGrid};
 use crate::plan::{Coupling, Plan};
 use crate::run::PairCompliance;
@@ -22,12 +21,6 @@ const MARGIN: usize = 3;
 
 /// The motion of each degree of freedom, in the order of the controls.
 pub(super) const MOTION_OF: [usize; 6] = [0, 3, 4, 5, 1, 2];
-
-/// An increment as the run left it: its record, and the state in front of the mirrors.
-pub(super) struct Snapshot {
-    pub record: StepRecord,
-    pub state: ContactState,
-}
 
 /// The fixed part of a history.
 pub(super) struct Scene<'a> {
@@ -189,6 +182,8 @@ fn region_of(plan: &Plan, cells: [usize; 2], snapshots: &[Snapshot]) -> Region {
     if plan.case.periodic {
         return Region::whole(cells);
     }
-    let touched = |i: usize, j: usize| snapshots.iter().any(|step| step.state.pressure[[i, j]] > 0.0);
+    let mut pressed = Array2::from_elem(cells, false);
+    snapshots.iter().flat_map(Snapshot::pressed).for_each(|cell| pressed[cell] = true);
+    let touched = |i: usize, j: usize| pressed[[i, j]];
     Region::around(cells, plan.symmetry.axes(), MARGIN, good_length, touched)
 }

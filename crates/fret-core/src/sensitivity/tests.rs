@@ -15,7 +15,8 @@ use super::loads::Load;
 use super::operators::Operators;
 use super::replay::Replay;
 use super::rule::{Cells, PathChange, Rule};
-use super::scene::{Scene, Snapshot};
+use super::scene::Scene;
+use super::snapshot::Snapshot;
 use super::solved::{Solved, law_of};
 use super::transposed::Transposed;
 use crate::case::Case;
@@ -177,8 +178,8 @@ fn each_increment(text: &str, mut show: impl FnMut(At<'_>, &mut Operators)) {
     let mut replay = Replay::new(&scene);
     let mut past = [replay.start.clone(), replay.start.clone()];
     for (number, snapshot) in steps.iter().enumerate() {
-        let state = number.checked_sub(1).map(|last| &steps[last].state);
-        let next = replay.next((snapshot, state), past.each_ref().map(Some), &mut operators);
+        let state = number.checked_sub(1).map(|last| steps[last].state());
+        let next = replay.next((snapshot, state.as_ref()), past.each_ref().map(Some), &mut operators);
         let now = next.solved.unwrap();
         let at = At { scene: &scene, snapshot, load: &next.load, now: &now, past: past.each_ref() };
         show(at, &mut operators);
