@@ -231,7 +231,7 @@ fn derivatives_on_the_other_side_are_those_of_a_case_beyond() {
 /// Of a history that takes much memory some increments are kept, and those between found again: the same bits.
 #[test]
 fn derivatives_do_not_depend_on_the_increments_that_are_kept() {
-    let text = SIMILAR.replace("poisson = 0.5", "poisson = 0.2");
+    let text = SIMILAR.replace("poisson = 0.5", "poisson = 0.2").replace("increments = 8", "increments = 32");
     let mut plan = Written { text: &text, numbers: &NUMBERS }.plan(None);
     let by: Vec<&str> = NUMBERS.iter().map(|(_, _, path)| *path).collect();
     let of = ["dissipated_energy", "increments[4].shift_x"];
@@ -566,4 +566,94 @@ fn backwards_all_numbers_take_fewer_applications_than_the_run() {
     println!("run {of_run}, derivatives {work:?}");
     assert!(work.of_linear_problems + work.others < of_run, "{of_run}: {work:?}");
     assert!((1..=history.steps.len()).contains(&work.of_constants), "{work:?}");
+}
+
+/// A loop of a coated body that wears, in cycles and in a stage of its own.
+const WORN: &str = r#"
+[grid]
+cells = [24, 24]
+size = [3.0, 3.0]
+[upper]
+rigid = true
+[lower]
+coatings = [{ thickness = <h>, young = <E>, poisson = 0.35 }]
+substrate = { young = <Es>, poisson = 0.3 }
+[profile.sphere]
+radius = <R>
+[friction]
+coefficient = <mu>
+[wear]
+law = "<law>"
+coefficient = <k>
+[solver]
+tolerance = 1e-11
+[[load]]
+normal_force = <P>
+increments = 3
+[[load]]
+tangential_force = [<Q>, 0.0]
+cycles = 3
+increments = 8
+[[load]]
+shift = [<dx>, 0.0]
+increments = 2
+[[load]]
+shift = [0.0, 0.0]
+increments = 2
+"#;
+const WORN_NUMBERS: [(&str, f64, &str); 9] = [
+    ("h", 0.4, "lower.coatings[0].thickness"),
+    ("E", 3.0, "lower.coatings[0].young"),
+    ("Es", 1.0, "lower.substrate.young"),
+    ("R", 5.0, "profile.sphere.radius"),
+    ("mu", 0.3, "friction.coefficient"),
+    ("k", 0.3, "wear.coefficient"),
+    ("P", 0.15, "load[0].normal_force"),
+    ("Q", 0.035, "load[1].tangential_force[0]"),
+    ("dx", 0.05, "load[2].shift[0]"),
+];
+
+/// Worn volume and depth, and what later increments make of the worn surfaces, by both laws.
+#[test]
+fn wear_is_differentiated_through_cycles_and_stages() {
+    for law in ["energy", "archard"] {
+        let text = WORN.replace("<law>", law);
+        let columns = [
+            "worn_volume",
+            "max_worn_depth",
+            "max_pressure",
+            "approach",
+            "dissipated_energy",
+            "external_work",
+            "tangential_force_x",
+        ];
+        let worst = Written { text: &text, numbers: &WORN_NUMBERS }.worst(&columns);
+        assert!(worst < 1e-5, "{law}: {worst:e}");
+    }
+}
+
+/// By the law of energy the worn volume is the coefficient times the dissipated energy, whatever the numbers; and it is a length cubed: moduli and
+/// forces have no effect on it together with the coefficient, which is one over a pressure.
+#[test]
+fn the_worn_volume_is_the_coefficient_times_the_energy() {
+    let text = WORN.replace("<law>", "energy");
+    let by: Vec<&str> = WORN_NUMBERS.iter().map(|(_, _, path)| *path).collect();
+    let plan = Written { text: &text, numbers: &WORN_NUMBERS }.plan(None);
+    let found = found(&plan, &["worn_volume", "dissipated_energy"], &by).unwrap();
+    let [volume, energy] = [0, 1].map(|of| &found.gradients[of]);
+    let (k, mut scale) = (0.3, 0.0);
+    assert!((volume.value / (k * energy.value) - 1.0).abs() < 1e-12);
+    for (place, (name, value, path)) in WORN_NUMBERS.iter().enumerate() {
+        let own = if *name == "k" { energy.value } else { 0.0 };
+        let expected = k * energy.by[place] + own;
+        let off = (volume.by[place] - expected).abs() * value / volume.value;
+        assert!(off < 1e-8, "{path}: {:e} {expected:e} {off:.1e}", volume.by[place]);
+        let power = match *name {
+            "E" | "Es" | "P" | "Q" => 1.0,
+            "k" => -1.0,
+            _ => 0.0,
+        };
+        scale += power * value * volume.by[place];
+    }
+    assert!((scale / volume.value).abs() < 1e-7, "{scale:e} {:e}", volume.value);
 }

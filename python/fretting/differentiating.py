@@ -59,7 +59,7 @@ def gradient(
         Numbers of the case by their paths: ``"friction.coefficient"``, ``"friction.max_shear"``,
         ``"lower.coatings[0].young"``, ``"lower.substrate.poisson"``, ``"lower.coatings[0].thickness"``,
         ``"profile.sphere.radius"``, ``"load[0].normal_force"``, ``"load[1].tangential_force[0]"``,
-        ``"rig.tangential_stiffness"``. Default: all there are.
+        ``"rig.tangential_stiffness"``, ``"wear.coefficient"``. Default: all there are.
     threads : int, optional
         Worker threads. Default: all cores.
 
@@ -77,8 +77,8 @@ def gradient(
     CaseError
         When the case is refused.
     ValueError
-        When a result or a number is not one of the case, or the case is of a kind that is not covered: with wear,
-        evolving friction, bulk stress, surfaces that move, or increments in parts.
+        When a result or a number is not one of the case, or the case is of a kind that is not covered: with wear
+        by more than one coefficient or in jumps over cycles, evolving friction, bulk stress, surfaces that move, or increments in parts.
     RunError
         When the run fails, or the linear equations of an increment are not solved.
     """

@@ -99,7 +99,7 @@ def test_what_there_is_not_is_refused(of: str, by: str, told: str) -> None:
 
 def test_wear_is_refused_by_its_key() -> None:
     with pytest.raises(ValueError, match=r"\[wear\]"):
-        fretting.gradient({**CASE, "wear": {"coefficient": 1e-13}}, of="max_pressure")
+        fretting.gradient({**CASE, "wear": {"coefficient": 1e-13, "debris": {"fraction": 0.5}}}, of="max_pressure")
 
 
 def test_the_command_gives_the_same(tmp_path: Path) -> None:
@@ -157,7 +157,7 @@ def test_a_function_of_numbers_refuses_results_without_derivatives() -> None:
     for case, of, words in (
         (CASE, "increments[40].shift_x", "has 12 increments"),
         (CASE, "cycles[1].dissipated_energy", "has 1 cycles"),
-        ({**CASE, "wear": {"coefficient": 1e-13}}, "max_pressure", r"\[wear\]"),
+        ({**CASE, "wear": {"coefficient": 1e-13, "debris": {"fraction": 0.5}}}, "max_pressure", r"\[wear\]"),
     ):
         function = Results(case, of, by, None)
         for answer in (function.values, function.differentiated):

@@ -44,6 +44,7 @@ struct Gathered {
     changes: [Change; 3],
     gap: Vec<f64>,
     rig: [f64; 3],
+    wear: f64,
     /// Coefficient and strength, and numbers of the controls, stage by stage.
     friction: Vec<[f64; 2]>,
     controls: Vec<[f64; FREEDOMS]>,
@@ -52,10 +53,11 @@ struct Gathered {
 }
 
 impl Gathered {
-    fn nothing(cells: usize, stages: usize) -> Self {
+    fn nothing(scene: &Scene<'_>, stages: usize) -> Self {
         Self {
-            changes: [(); 3].map(|()| Change::none(cells)),
-            gap: vec![0.0; cells],
+            changes: [(); 3].map(|()| scene.no_change()),
+            gap: vec![0.0; scene.region.len()],
+            wear: 0.0,
             rig: [0.0; 3],
             friction: vec![[0.0; 2]; stages],
             controls: vec![[0.0; FREEDOMS]; stages],
@@ -74,7 +76,7 @@ impl Gathered {
     /// Its derivative by a number that is no constant of a body.
     fn by(&self, parameter: &Parameter, scene: &Scene<'_>) -> f64 {
         let case = &scene.plan.case;
-        let mut sum = 0.0;
+        let mut sum = self.wear * parameter.change_of_wear();
         if parameter.is_of_shape() {
             sum += dot(&self.gap, &change_of_gap(parameter, scene));
         }
@@ -109,7 +111,7 @@ pub(super) fn backward(
     mut visit: impl FnMut(&Snapshot) -> ControlFlow<()>,
 ) -> Result<Found, SensitivityError> {
     let (cells, stages) = (scene.region.len(), scene.plan.case.stages.len());
-    let mut gathered: Vec<Gathered> = targets.iter().map(|_| Gathered::nothing(cells, stages)).collect();
+    let mut gathered: Vec<Gathered> = targets.iter().map(|_| Gathered::nothing(scene, stages)).collect();
     let mut constants = Constants::new(scene, parameters, targets.len())?;
     let mut most: Option<NearEvents> = None;
     for number in (0..steps.len()).rev() {
@@ -146,7 +148,7 @@ pub(super) fn backward(
         let mut equations = increment.equations(operators)?;
         for (objective, (gathered, target)) in gathered.iter_mut().zip(targets).enumerate() {
             let [after, before, former] = &mut gathered.changes;
-            let after = std::mem::replace(after, Change::none(cells));
+            let after = std::mem::replace(after, scene.no_change());
             if after.is_none() {
                 gathered.changes.rotate_left(1);
                 continue;
@@ -173,6 +175,7 @@ pub(super) fn backward(
             for (sum, by) in gathered.rig.iter_mut().zip(drive.rig) {
                 *sum += by;
             }
+            gathered.wear += drive.wear;
             constants.take(objective, &now.tractions, &drive.response);
             gathered.changes.rotate_left(1);
         }

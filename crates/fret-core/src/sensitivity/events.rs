@@ -61,7 +61,7 @@ pub(super) fn cells_near_events(
         let gap = *undeformed + solved.displacements[0][cell] - deep;
         (solved.zone_of(cell) == Zone::Open && gap < NEAR * own[0] * pressure).then_some((cell, Zone::Slip))
     };
-    cells.extend(scene.undeformed.iter().enumerate().filter_map(touches));
+    cells.extend(solved.undeformed.iter().enumerate().filter_map(touches));
     cells
 }
 

@@ -37,7 +37,11 @@ pub(super) fn response_by(
     scene: &Scene<'_>,
     parameter: &Parameter,
 ) -> Result<Option<SpectralCompliance>, SensitivityError> {
-    let change = parameter.of_body().map(|number| change_of_response(scene.plan, number));
+    // Over the region and what lies behind the mirrors.
+    let [rows, columns] = scene.plan.symmetry.whole_of(scene.region.shape);
+    let [most_rows, most_columns] = scene.plan.grid.cells();
+    let cells = [rows.min(most_rows), columns.min(most_columns)];
+    let change = parameter.of_body().map(|number| change_of_response(scene.plan, number, cells));
     let made = change.map(|change| scene.compliance(&change)).transpose();
     made.map_err(|error| SensitivityError::Operators(error.to_string()))
 }
@@ -80,7 +84,7 @@ pub(super) fn forward(
     let mut courses = Vec::with_capacity(parameters.len());
     for parameter in parameters {
         let gap = change_of_gap(parameter, scene);
-        let untouched = Change { gap: gap.clone(), ..Change::none(scene.region.len()) };
+        let untouched = Change { gap: gap.clone(), ..scene.no_change() };
         let response = response_by(scene, parameter)?;
         courses.push(Course { parameter, before: untouched.clone(), former: untouched, gap, response });
     }
@@ -88,8 +92,8 @@ pub(super) fn forward(
     let mut past = [replay.start.clone(), replay.start.clone()];
     let mut most: Option<NearEvents> = None;
     for (number, step) in steps.iter().enumerate() {
-        let state = number.checked_sub(1).map(|last| steps[last].state());
-        let next = replay.next((step, state.as_ref()), past.each_ref().map(Some), &mut operators);
+        let last = number.checked_sub(1).map(|last| &steps[last]);
+        let next = replay.next((step, last), past.each_ref().map(Some), (&mut operators, None));
         let stage = next.load.stage;
         let numbers: Vec<[f64; FREEDOMS]> = courses
             .iter()
@@ -172,6 +176,7 @@ impl Course<'_> {
         drive.gap.clone_from(&self.gap);
         drive.friction = self.parameter.change_of_friction(case, stage);
         drive.rig = self.parameter.change_of_rig(case);
+        drive.wear = self.parameter.change_of_wear();
         if let Some(change) = &mut self.response
             && solved.contact.len() > 0
         {

@@ -14,8 +14,8 @@ use super::field_weights::FieldWeights;
 use super::forward::forward;
 use super::objective::{Column, Objective, Row, value_of};
 use super::parameter::Parameter;
-use super::past::{self, Past, length_of_segments};
-use super::refusals::{check, check_history, check_request};
+use super::past::{Past, bytes_per_cell, length_of_segments};
+use super::refusals::{check, check_history, check_request, check_wear};
 use super::scene::Scene;
 use super::snapshot::Snapshot;
 use super::work::Work;
@@ -168,7 +168,9 @@ fn derivatives(
     let mut run = Snapshots { steps: Vec::new(), cycles: Vec::new(), observer };
     let pair = Arc::new(PairCompliance::of(plan));
     Simulation::new(plan).with_compliance(Some(Arc::clone(&pair))).run(&mut run)?;
-    let Snapshots { steps, cycles, observer } = run;
+    let Snapshots { mut steps, cycles, observer } = run;
+    end_blocks(&mut steps, &cycles);
+    check_wear(plan, &cycles)?;
     if let Some(step) = steps.iter().find(|step| step.record.parts > 1) {
         return Err(SensitivityError::Parts { increment: step.record.increment, parts: step.record.parts });
     }
@@ -196,9 +198,8 @@ fn derivatives(
     let steps = &steps[..asked.unwrap_or(0)];
     let cheaper = if targets.len() < parameters.len() { Direction::Backward } else { Direction::Forward };
     let backwards = direction.unwrap_or(cheaper) == Direction::Backward;
-    let each = scene.region.len().saturating_mul(past::BYTES);
-    let length = length_of_segments(steps.len(), each, plan.memory_bytes);
-    let bytes = each.saturating_mul(past::kept(steps.len(), length));
+    let length = length_of_segments(steps.len(), scene.region.len(), plan.memory_bytes);
+    let bytes = bytes_per_cell(steps.len(), length).saturating_mul(scene.region.len());
     let mut past = None;
     let mut operators = scene.operators(&pair)?;
     if backwards && (direction.is_some() || memory::check(bytes).is_ok()) {
@@ -221,6 +222,15 @@ fn derivatives(
     let gradients = gradients.collect();
     work.kept_bytes = packed + if direction == Direction::Backward { bytes } else { 0 };
     Ok(Sensitivities { parameters, gradients, near_events, direction, work })
+}
+
+/// Tells the increments with which a cycle, or a stage without cycles, ends.
+pub(super) fn end_blocks(steps: &mut [Snapshot], cycles: &[CycleRecord]) {
+    for number in 0..steps.len() {
+        let stage = steps[number].record.stage;
+        let ends_stage = steps.get(number + 1).is_none_or(|next| next.record.stage != stage);
+        steps[number].ends_block = ends_stage || cycles.iter().any(|cycle| cycle.last_increment == number);
+    }
 }
 
 /// Derivatives of the targets by all numbers, forward.
@@ -306,7 +316,8 @@ impl Observer for Snapshots<'_> {
         state: MirroredState<'_>,
         kept: Option<&KeptFields>,
     ) -> ControlFlow<()> {
-        self.steps.push(Snapshot::of(record, state.part));
+        let snapshot = Snapshot::of(record, state.part, self.steps.last());
+        self.steps.push(snapshot);
         self.observer.solved(record, state, kept)
     }
 

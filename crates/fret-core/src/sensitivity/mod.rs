@@ -38,6 +38,7 @@ mod solved;
 #[cfg(test)]
 mod tests;
 mod transposed;
+mod wear;
 mod work;
 
 pub use error::SensitivityError;

@@ -5,7 +5,7 @@ use super::change::Change;
 use super::error::SensitivityError;
 use super::field_weights::RegionWeights;
 use super::solved::Solved;
-use crate::fields::{add_scaled, dot, length};
+use crate::fields::{add_scaled, dot, length, sum};
 use crate::history::{CycleRecord, STEP_COLUMNS, StepRecord, Value};
 use crate::model::Body;
 use crate::plan::Plan;
@@ -14,7 +14,7 @@ use crate::subsurface::fatigue::Parameter;
 use crate::subsurface::severity::constants_of;
 
 /// Columns of an increment that have derivatives.
-pub const COLUMNS: [&str; 22] = [
+pub const COLUMNS: [&str; 24] = [
     "normal_force",
     "approach",
     "actuator_approach",
@@ -37,6 +37,8 @@ pub const COLUMNS: [&str; 22] = [
     "external_work",
     "unresolved_energy",
     "friction_coefficient",
+    "worn_volume",
+    "max_worn_depth",
 ];
 
 /// Columns that have none, and why.
@@ -240,7 +242,11 @@ pub(super) enum Row<'a> {
     Field(usize, &'a [f64]),
     /// The friction coefficient in force.
     Friction,
-    /// Nothing: nothing wears in the histories whose derivatives are taken.
+    /// The worn depth of a cell.
+    Worn(usize),
+    /// The worn volume, with the area that a cell stands for.
+    WornVolume(f64),
+    /// Nothing.
     Nothing,
 }
 
@@ -283,6 +289,10 @@ impl<'a> Row<'a> {
             "external_work" => Self::Energy(2),
             "unresolved_energy" => Self::Energy(3),
             "friction_coefficient" => Self::Friction,
+            "worn_volume" => Self::WornVolume(solved.area),
+            "max_worn_depth" => {
+                largest(solved.worn.iter().copied().enumerate()).map_or(Self::Nothing, Self::Worn)
+            }
             _ => Self::Nothing,
         }
     }
@@ -297,6 +307,8 @@ impl<'a> Row<'a> {
             Self::Field(0, weights) => dot(weights, &change.pressure),
             Self::Field(component, weights) => dot(weights, &change.shear[component - 1]),
             Self::Friction => friction,
+            Self::Worn(cell) => change.worn[cell],
+            Self::WornVolume(area) => area * sum(&change.worn),
             Self::Nothing => 0.0,
         }
     }
@@ -314,6 +326,8 @@ impl<'a> Row<'a> {
             Self::Field(0, weights) => add_scaled(&mut to.pressure, weight, weights),
             Self::Field(component, weights) => add_scaled(&mut to.shear[component - 1], weight, weights),
             Self::Friction => *friction += weight,
+            Self::Worn(cell) => to.worn[cell] += weight,
+            Self::WornVolume(area) => to.worn.iter_mut().for_each(|worn| *worn += weight * area),
             Self::Nothing => {}
         }
     }

@@ -2,6 +2,7 @@
 //! found again.
 
 use super::error::SensitivityError;
+use super::fields::Fields;
 use super::loads::{Load, Prescribed};
 use super::operators::Operators;
 use super::replay::Replay;
@@ -9,10 +10,9 @@ use super::scene::Scene;
 use super::snapshot::Snapshot;
 use super::solved::Solved;
 
-/// Bytes a cell of an increment that is kept: eleven fields and the zone.
-pub(super) const BYTES: usize = 89;
-/// Increments take so much of what the run took before some of them are found again.
-const PLENTY: usize = 4;
+/// Bytes a cell of an increment that is kept: twelve fields and the zone; and of its displacements alone.
+const WHOLE: usize = 97;
+const DISPLACEMENTS: usize = 24;
 
 /// A history that was solved, increment by increment.
 pub(super) struct Past<'a> {
@@ -21,6 +21,8 @@ pub(super) struct Past<'a> {
     /// Increments of a segment.
     length: usize,
     segments: Vec<Start<'a>>,
+    /// Displacements of all increments, which take a product with the response; none where all increments are kept.
+    displacements: Vec<Fields>,
     /// Number of the segment at hand, and its increments.
     here: (usize, Vec<(Load, Solved)>),
 }
@@ -31,19 +33,23 @@ struct Start<'a> {
     past: [Solved; 2],
 }
 
-/// Increments of a segment of a history of so many, each of which takes some bytes, after a run that took `run` bytes: all where that is a quarter
-/// of it, or else as many as there are starts.
-pub(super) fn length_of_segments(increments: usize, each: usize, run: usize) -> usize {
-    if increments.saturating_mul(each).saturating_mul(PLENTY) <= run {
+/// Increments of a segment of a history of so many on a region of cells, after a run that took `run` bytes: all where they take no more than
+/// that, or else as many as are kept at the starts.
+pub(super) fn length_of_segments(increments: usize, cells: usize, run: usize) -> usize {
+    if increments.saturating_mul(cells).saturating_mul(WHOLE) <= run {
         return increments.max(1);
     }
     // Of each segment two are kept.
-    ((2 * increments) as f64).sqrt().ceil().max(1.0) as usize
+    let length = ((2 * increments) as f64).sqrt().ceil().max(1.0) as usize;
+    // Of a short history all are less.
+    if bytes_per_cell(increments, length) < increments * WHOLE { length } else { increments.max(1) }
 }
 
-/// Increments that are kept at most of a history of so many in segments of a length.
-pub(super) fn kept(increments: usize, length: usize) -> usize {
-    2 * increments.div_ceil(length) + length.min(increments)
+/// Bytes a cell that a history of so many increments in segments of a length takes at most.
+pub(super) fn bytes_per_cell(increments: usize, length: usize) -> usize {
+    let kept = if length < increments { 2 * increments.div_ceil(length) + length } else { increments };
+    let displacements = if length < increments { increments } else { 0 };
+    kept.saturating_mul(WHOLE).saturating_add(displacements.saturating_mul(DISPLACEMENTS))
 }
 
 impl<'a> Past<'a> {
@@ -54,8 +60,8 @@ impl<'a> Past<'a> {
         operators: &mut Operators,
         length: usize,
     ) -> Option<Self> {
-        let mut past =
-            Self { steps, replay: Replay::new(scene), length, segments: Vec::new(), here: (0, Vec::new()) };
+        let (segments, displacements, here) = (Vec::new(), Vec::new(), (0, Vec::new()));
+        let mut past = Self { steps, replay: Replay::new(scene), length, segments, displacements, here };
         for number in 0..steps.len() {
             if number.is_multiple_of(length) {
                 let start = Start { prescribed: past.replay.prescribed.clone(), past: past.last_two() };
@@ -63,6 +69,9 @@ impl<'a> Past<'a> {
                 past.here = (number / length, Vec::with_capacity(length));
             }
             past.go_on(number, operators)?;
+            if let (true, Some((_, solved))) = (length < steps.len(), past.here.1.last()) {
+                past.displacements.push(solved.displacements.clone());
+            }
         }
         Some(past)
     }
@@ -76,11 +85,12 @@ impl<'a> Past<'a> {
 
     /// Finds the increment of a number again, where the one before it is at hand.
     fn go_on(&mut self, number: usize, operators: &mut Operators) -> Option<()> {
-        let state = number.checked_sub(1).map(|last| self.steps[last].state());
-        let Self { replay, here, segments, length, .. } = self;
+        let Self { replay, here, segments, length, displacements, .. } = self;
         let start = &segments[here.0].past;
         let past = [1, 2].map(|back| back_from(number - here.0 * *length, back, (&here.1, start)));
-        let next = replay.next((&self.steps[number], state.as_ref()), past.map(Some), operators);
+        let last = number.checked_sub(1).map(|last| &self.steps[last]);
+        let found = displacements.get(number);
+        let next = replay.next((&self.steps[number], last), past.map(Some), (operators, found));
         let solved = next.solved.filter(|solved| solved.contact.len() > 0)?;
         self.here.1.push((next.load, solved));
         Some(())
@@ -131,9 +141,13 @@ mod tests {
     /// Nothing is found again where all takes little; else what is kept grows with the root.
     #[test]
     fn what_is_kept_grows_with_the_root() {
-        assert_eq!(length_of_segments(96, 100, 4 * 96 * 100), 96);
-        assert_eq!([length_of_segments(96, 100, 96 * 100), kept(96, 14)], [14, 28]);
-        assert_eq!([length_of_segments(800, 1, 0), kept(800, 40)], [40, 80]);
-        assert_eq!([length_of_segments(0, 1, 0), kept(0, 1)], [1, 0]);
+        assert_eq!(length_of_segments(96, 100, 96 * 100 * WHOLE), 96);
+        assert_eq!([length_of_segments(96, 100, 96 * 100), length_of_segments(11, 100, 0)], [14, 11]);
+        assert_eq!(bytes_per_cell(96, 14), 28 * WHOLE + 96 * DISPLACEMENTS);
+        assert_eq!(
+            [length_of_segments(800, 1, 0), bytes_per_cell(800, 40)],
+            [40, 80 * WHOLE + 800 * DISPLACEMENTS]
+        );
+        assert_eq!([length_of_segments(0, 1, 0), bytes_per_cell(0, 1)], [1, 0]);
     }
 }

@@ -5,7 +5,8 @@ use ndarray::s;
 use super::error::SensitivityError;
 use super::objective::Objective;
 use super::parameter::Parameter;
-use crate::case::{Stage, StageControl};
+use crate::case::{Case, Stage, StageControl};
+use crate::history::CycleRecord;
 use crate::kernel::uniform_response;
 use crate::model::{CoulombFriction, Integration};
 use crate::plan::{Coupling, Plan, Simplification};
@@ -19,7 +20,11 @@ pub(super) fn check(plan: &Plan) -> Result<(), SensitivityError> {
     let moves = |stage: &Stage| stage.normal.as_ref().is_some_and(StageControl::is_motion);
     let by_mean_gap = repeats && case.stages.iter().any(moves);
     let refusals = [
-        (case.wear.is_some(), "[wear]", without),
+        (
+            wears_otherwise(case),
+            "[wear] beyond one coefficient",
+            "one wear.coefficient, and none of thinning_tolerance, debris, rim",
+        ),
         (case.hardness.is_some(), "hardness", without),
         (case.friction_evolution.is_some(), "friction.evolution", without),
         (plan.moves, "kinematics.displacement = \"finite\"", without),
@@ -42,6 +47,24 @@ pub(super) fn check(plan: &Plan) -> Result<(), SensitivityError> {
         Some((_, key, advice)) => Err(SensitivityError::NotCovered { key: key.to_owned(), advice }),
         None => Ok(()),
     }
+}
+
+/// Whether a case wears by more than one coefficient of both bodies together.
+fn wears_otherwise(case: &Case) -> bool {
+    case.wear.as_ref().is_some_and(|wear| {
+        let plain = wear.layers.is_none() && wear.thinning_tolerance.is_none() && wear.own.is_none();
+        !(plain && wear.debris.is_none() && wear.rim.is_none() && wear.coefficient.is_some())
+    })
+}
+
+/// Whether the cycles of a history that wears stand for themselves alone.
+pub(super) fn check_wear(plan: &Plan, cycles: &[CycleRecord]) -> Result<(), SensitivityError> {
+    let jumps = cycles.iter().any(|cycle| cycle.stands_for > 1);
+    if plan.case.wear.is_some() && jumps {
+        let (key, advice) = ("cycle jumps".to_owned(), "every = 1 in [wear]");
+        return Err(SensitivityError::NotCovered { key, advice });
+    }
+    Ok(())
 }
 
 /// Whether the numbers and the results that are asked for have derivatives with the simplifications of a plan.
@@ -96,6 +119,19 @@ pub(super) fn check_request(
             }
         }
     }
+    let of_wear = ["worn_volume", "max_worn_depth"];
+    let by_gap = ["unresolved_energy"];
+    let (wears, refused) = (plan.case.wear.is_some(), |name: &str, reason: &str| {
+        Err(SensitivityError::Objective { name: name.to_owned(), reason: reason.to_owned() })
+    });
+    for column in objectives.iter().map(Objective::column) {
+        if of_wear.contains(&column) && !wears {
+            return refused(column, "nothing wears in this case");
+        }
+        if by_gap.contains(&column) && wears {
+            return refused(column, "of surfaces that wear no derivative is taken of it");
+        }
+    }
     let of_friction = |objective: &&Objective| objective.column() == "friction_coefficient";
     let mapped = plan.case.friction.is_map()
         || plan.case.stages.iter().filter_map(|stage| stage.friction.as_ref()).any(CoulombFriction::is_map);
@@ -142,6 +178,12 @@ pub(super) fn check_history(
         return Err(SensitivityError::NotCovered {
             key: "bodies that are apart before they touch".to_owned(),
             advice: "integration = \"end_point\" in [solver], or a first stage that presses them",
+        });
+    }
+    if is_apart && case.wear.is_some() {
+        return Err(SensitivityError::NotCovered {
+            key: "bodies that are apart, and wear".to_owned(),
+            advice: "keep them pressed",
         });
     }
     if is_apart && case.stages.iter().any(Stage::tilts) {

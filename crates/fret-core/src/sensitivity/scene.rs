@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ndarray::Array2;
 
 use super::cell::MOTIONS;
-use super::change::Reached;
+use super::change::{Change, Reached};
 use super::error::SensitivityError;
 use super::operators::{Made, Operators};
 use super::snapshot::Snapshot;
@@ -71,6 +71,11 @@ impl<'a> Scene<'a> {
     /// Whether shear is unknown.
     pub fn is_frictional(&self) -> bool {
         self.plan.coupling != Coupling::Frictionless
+    }
+
+    /// No change.
+    pub fn no_change(&self) -> Change {
+        Change::none(self.region.len()).of_wear(self.plan.case.wear.is_some())
     }
 
     /// How many cells of the whole contact a cell stands for, times the area of one [length^2].

@@ -1,5 +1,7 @@
 //! Increments as a run left them, for later: where bodies touch, and no more.
 
+use std::sync::Arc;
+
 use ndarray::Array2;
 
 use crate::history::StepRecord;
@@ -19,11 +21,15 @@ pub(super) struct Snapshot {
     shift: [f64; 2],
     twist: f64,
     tilt: [f64; 2],
+    /// Depth worn off both bodies together, after what happens to the surfaces where a cycle or a stage ends [length].
+    pub worn: Option<Arc<Array2<f64>>>,
+    /// Whether a cycle or a stage without cycles ends with it, whose wear is taken off then.
+    pub ends_block: bool,
 }
 
 impl Snapshot {
-    /// That of a state.
-    pub fn of(record: &StepRecord, state: &ContactState) -> Self {
+    /// That of a state; `last`: the increment before.
+    pub fn of(record: &StepRecord, state: &ContactState, last: Option<&Self>) -> Self {
         let fields = [&state.pressure, &state.shear[0], &state.shear[1]];
         let (rows, columns) = state.zone.dim();
         let flat = fields.map(|field| field.iter().copied().collect::<Vec<f64>>());
@@ -41,6 +47,20 @@ impl Snapshot {
             shift: state.shift,
             twist: state.twist,
             tilt: state.tilt,
+            worn: state.worn_depth.as_ref().map(|depth| {
+                let same = last.and_then(|last| last.worn.as_ref()).filter(|known| ***known == *depth);
+                same.map_or_else(|| Arc::new(depth.clone()), Arc::clone)
+            }),
+            ends_block: false,
+        }
+    }
+
+    /// Whether the surfaces have worn at its end, since another one.
+    pub fn has_worn(&self, last: Option<&Self>) -> bool {
+        match (&self.worn, last.and_then(|last| last.worn.as_ref())) {
+            (Some(now), Some(then)) => !Arc::ptr_eq(now, then),
+            (Some(now), None) => now.iter().any(|depth| *depth != 0.0),
+            (None, _) => false,
         }
     }
 
