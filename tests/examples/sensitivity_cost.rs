@@ -125,7 +125,7 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
                 println!(
                     "{:44} {:.1} MiB kept, peak {:.0} MiB",
                     "",
-                    work.kept_bytes as f64 / 1048576.0,
+                    work.kept_bytes as f64 / 1_048_576.0,
                     peak()
                 );
             }
