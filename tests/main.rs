@@ -64,6 +64,7 @@ mod shapes;
 mod shear_strength;
 mod sliding;
 mod stiff_and_extreme;
+mod stress_sensitivities;
 mod subsurface;
 mod surfaces;
 mod thinning;

@@ -202,6 +202,60 @@ fn cells_near_a_change_of_state_are_the_same_both_ways() {
     }
 }
 
+/// At the place where cells that slid are about to stick, derivatives on the other side are those of a force that goes on by as little: with the
+/// first difference in the shift by the force, of a loop that turns or not.
+#[test]
+fn derivatives_on_the_other_side_are_those_of_a_case_beyond() {
+    let of_force = |last: f64| {
+        let stages = format!(
+            "tangential_force = [<Q>, 0.0]\nincrements = 3\n[[load]]\ntangential_force = [{last}, 0.0]\nincrements = 1\n"
+        );
+        let text = SIMILAR.replace("tangential_force = [<Q>, 0.0]\ncycles = 1\nincrements = 8\n", &stages);
+        Written { text: &text, numbers: &NUMBERS }.plan(None)
+    };
+    let [turns, goes_on] = [of_force(2.499_999_75), of_force(2.500_000_25)];
+    for direction in [Direction::Forward, Direction::Backward] {
+        let by = ["load[2].tangential_force[0]"];
+        let [turns, goes_on] =
+            [&turns, &goes_on].map(|plan| found_along(plan, &["shift_x"], &by, Some(direction)).unwrap());
+        assert!(turns.near_events.is_some());
+        let (own, other) =
+            (turns.gradients[0].by[0], turns.gradients[0].on_the_other_side.clone().unwrap()[0]);
+        let beyond = goes_on.gradients[0].by[0];
+        // Slip gives more than stick, by tenths.
+        assert!(own < 0.9 * beyond, "{own:e} {beyond:e}");
+        assert!((other / beyond - 1.0).abs() < 1e-3, "{direction:?}: {other:e} {beyond:e} {own:e}");
+    }
+}
+
+/// Of a history that takes much memory some increments are kept, and those between found again: the same bits.
+#[test]
+fn derivatives_do_not_depend_on_the_increments_that_are_kept() {
+    let text = SIMILAR.replace("poisson = 0.5", "poisson = 0.2").replace("increments = 8", "increments = 32");
+    let mut plan = Written { text: &text, numbers: &NUMBERS }.plan(None);
+    let by: Vec<&str> = NUMBERS.iter().map(|(_, _, path)| *path).collect();
+    let of = ["dissipated_energy", "increments[4].shift_x"];
+    let all = found_along(&plan, &of, &by, Some(Direction::Backward)).unwrap();
+    plan.memory_bytes = 0;
+    let some = found_along(&plan, &of, &by, Some(Direction::Backward)).unwrap();
+    assert_eq!(all.gradients, some.gradients);
+    assert!(some.work.kept_bytes < all.work.kept_bytes, "{:?} {:?}", some.work, all.work);
+}
+
+/// A loop of 64 + 32 increments on 128 x 128 cells: what derivatives keep is less than what the run takes, by the count of both; so together they
+/// take less than twice as much.
+#[test]
+#[ignore = "long: 96 increments on 128 x 128 cells"]
+fn derivatives_keep_less_than_the_run_takes() {
+    let text = "[grid]\ncells = [128, 128]\nsize = [400e-6, 400e-6]\n[upper]\nrigid = true\n[lower]\ncoatings = [{ thickness = 80e-6, \
+                young = 462e9, poisson = 0.2 }]\nsubstrate = { young = 210e9, poisson = 0.3 }\n[profile.sphere]\nradius = 10e-3\n[friction]\n\
+                coefficient = 0.3\n[[load]]\nnormal_force = 50.0\nincrements = 64\nramp = \"cubic\"\n[[load]]\n\
+                tangential_force = [9.0, 0.0]\ncycles = 1\nincrements = 32\n";
+    let plan = planned(text);
+    let found = found_along(&plan, &["dissipated_energy"], &[], Some(Direction::Backward)).unwrap();
+    assert!(found.work.kept_bytes < plan.memory_bytes, "{:?} {}", found.work, plan.memory_bytes);
+}
+
 #[test]
 fn a_loop_of_dissimilar_bodies_is_differentiated_by_both_rules() {
     for integration in ["end_point", "second_order"] {
@@ -512,4 +566,94 @@ fn backwards_all_numbers_take_fewer_applications_than_the_run() {
     println!("run {of_run}, derivatives {work:?}");
     assert!(work.of_linear_problems + work.others < of_run, "{of_run}: {work:?}");
     assert!((1..=history.steps.len()).contains(&work.of_constants), "{work:?}");
+}
+
+/// A loop of a coated body that wears, in cycles and in a stage of its own.
+const WORN: &str = r#"
+[grid]
+cells = [24, 24]
+size = [3.0, 3.0]
+[upper]
+rigid = true
+[lower]
+coatings = [{ thickness = <h>, young = <E>, poisson = 0.35 }]
+substrate = { young = <Es>, poisson = 0.3 }
+[profile.sphere]
+radius = <R>
+[friction]
+coefficient = <mu>
+[wear]
+law = "<law>"
+coefficient = <k>
+[solver]
+tolerance = 1e-11
+[[load]]
+normal_force = <P>
+increments = 3
+[[load]]
+tangential_force = [<Q>, 0.0]
+cycles = 3
+increments = 8
+[[load]]
+shift = [<dx>, 0.0]
+increments = 2
+[[load]]
+shift = [0.0, 0.0]
+increments = 2
+"#;
+const WORN_NUMBERS: [(&str, f64, &str); 9] = [
+    ("h", 0.4, "lower.coatings[0].thickness"),
+    ("E", 3.0, "lower.coatings[0].young"),
+    ("Es", 1.0, "lower.substrate.young"),
+    ("R", 5.0, "profile.sphere.radius"),
+    ("mu", 0.3, "friction.coefficient"),
+    ("k", 0.3, "wear.coefficient"),
+    ("P", 0.15, "load[0].normal_force"),
+    ("Q", 0.035, "load[1].tangential_force[0]"),
+    ("dx", 0.05, "load[2].shift[0]"),
+];
+
+/// Worn volume and depth, and what later increments make of the worn surfaces, by both laws.
+#[test]
+fn wear_is_differentiated_through_cycles_and_stages() {
+    for law in ["energy", "archard"] {
+        let text = WORN.replace("<law>", law);
+        let columns = [
+            "worn_volume",
+            "max_worn_depth",
+            "max_pressure",
+            "approach",
+            "dissipated_energy",
+            "external_work",
+            "tangential_force_x",
+        ];
+        let worst = Written { text: &text, numbers: &WORN_NUMBERS }.worst(&columns);
+        assert!(worst < 1e-5, "{law}: {worst:e}");
+    }
+}
+
+/// By the law of energy the worn volume is the coefficient times the dissipated energy, whatever the numbers; and it is a length cubed: moduli and
+/// forces have no effect on it together with the coefficient, which is one over a pressure.
+#[test]
+fn the_worn_volume_is_the_coefficient_times_the_energy() {
+    let text = WORN.replace("<law>", "energy");
+    let by: Vec<&str> = WORN_NUMBERS.iter().map(|(_, _, path)| *path).collect();
+    let plan = Written { text: &text, numbers: &WORN_NUMBERS }.plan(None);
+    let found = found(&plan, &["worn_volume", "dissipated_energy"], &by).unwrap();
+    let [volume, energy] = [0, 1].map(|of| &found.gradients[of]);
+    let (k, mut scale) = (0.3, 0.0);
+    assert!((volume.value / (k * energy.value) - 1.0).abs() < 1e-12);
+    for (place, (name, value, path)) in WORN_NUMBERS.iter().enumerate() {
+        let own = if *name == "k" { energy.value } else { 0.0 };
+        let expected = k * energy.by[place] + own;
+        let off = (volume.by[place] - expected).abs() * value / volume.value;
+        assert!(off < 1e-8, "{path}: {:e} {expected:e} {off:.1e}", volume.by[place]);
+        let power = match *name {
+            "E" | "Es" | "P" | "Q" => 1.0,
+            "k" => -1.0,
+            _ => 0.0,
+        };
+        scale += power * value * volume.by[place];
+    }
+    assert!((scale / volume.value).abs() < 1e-7, "{scale:e} {:e}", volume.value);
 }

@@ -118,17 +118,31 @@ fn what_is_not_covered_is_refused() {
         ("cycles[1].dissipated_energy", "1 cycles"),
         ("cycles[0].opening", "dissipated_energy"),
         ("increments[x].shift_x", "increments[7]"),
+        ("worn_volume", "nothing wears"),
     ] {
         let found = message(of, "friction.coefficient", &plan);
         assert!(found.contains(word) && found.contains(of), "{found}");
     }
     for (more, key) in [
-        ("[wear]\ncoefficient = 1e-13\n", "[wear]"),
+        ("[wear]\ncoefficient = 1e-13\n[wear.debris]\nfraction = 0.5\n", "[wear] beyond one coefficient"),
         ("[kinematics]\ndisplacement = \"finite\"\n", "kinematics"),
     ] {
         let found = message("max_pressure", "friction.coefficient", &planned(&format!("{text}{more}")));
         assert!(found.contains(key), "{found}");
     }
+}
+
+/// Jumps over cycles, and energies that the worn gap has a part in.
+#[test]
+fn wear_in_jumps_is_refused() {
+    let text = "[grid]\ncells = [16, 16]\nsize = [3.0, 3.0]\n[upper]\nrigid = true\n[lower]\nsubstrate = { young = 1.0, poisson = 0.3 }\n\
+                [profile.sphere]\nradius = 10.0\n[friction]\ncoefficient = 0.4\n[wear]\ncoefficient = 1e-3\nevery = 5\n[[load]]\n\
+                normal_force = 0.1\nincrements = 2\n[[load]]\ntangential_force = [0.03, 0.0]\ncycles = 20\nincrements = 4\n";
+    let message =
+        |text: &str, of: &str| found(&planned(text), &[of], &["wear.coefficient"]).unwrap_err().to_string();
+    assert!(message(text, "worn_volume").contains("every = 1"));
+    let one_by_one = text.replace("every = 5", "every = 1");
+    assert!(message(&one_by_one, "unresolved_energy").contains("surfaces that wear"));
 }
 
 /// Derivatives that would be wrong in silence, each refused with its reason.

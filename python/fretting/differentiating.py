@@ -33,6 +33,8 @@ class Gradient(dict[str, dict[str, float]]):
 
     near_events: NearEvents | None = None
     """Where derivatives on either side of the case differ, up to the last increment asked for; None: nowhere."""
+    on_the_other_side: dict[str, dict[str, float]] | None = None
+    """For every result its derivatives by path on the other side of all such cells; None: there are none."""
 
 
 def gradient(
@@ -49,13 +51,15 @@ def gradient(
     case : path, str or mapping
         As for :func:`fretting.run`.
     of : str or iterable of str
-        Results: a column of the last increment (``"max_pressure"``), of another (``"increments[7].shift_x"``), or the
-        energy of a cycle (``"cycles[0].dissipated_energy"``).
+        Results: a column of the last increment (``"max_pressure"``), of another (``"increments[7].shift_x"``), the
+        energy of a cycle (``"cycles[0].dissipated_energy"``), the largest stress below the surface
+        (``"stress.von_mises"``, ``"increments[7].stress.interface_shear"``), the largest fatigue parameter of a cycle
+        (``"fatigue.crossland"``, ``"cycles[0].fatigue.dang_van"``).
     by : str or iterable of str
         Numbers of the case by their paths: ``"friction.coefficient"``, ``"friction.max_shear"``,
         ``"lower.coatings[0].young"``, ``"lower.substrate.poisson"``, ``"lower.coatings[0].thickness"``,
         ``"profile.sphere.radius"``, ``"load[0].normal_force"``, ``"load[1].tangential_force[0]"``,
-        ``"rig.tangential_stiffness"``. Default: all there are.
+        ``"rig.tangential_stiffness"``, ``"wear.coefficient"``. Default: all there are.
     threads : int, optional
         Worker threads. Default: all cores.
 
@@ -65,21 +69,25 @@ def gradient(
         A dict: for every result its ``"value"``, and its derivatives by path, in the units of the case: of the result
         on the grid that the plan of the case chooses, which does not change with the numbers. Its ``near_events``
         tells in which increment most cells are within a millionth of another state, how many, and of how many in
-        contact: there derivatives on either side differ.
+        contact: there derivatives on either side differ. ``on_the_other_side`` has those with all such cells in their
+        other state.
 
     Raises
     ------
     CaseError
         When the case is refused.
     ValueError
-        When a result or a number is not one of the case, or the case is of a kind that is not covered: with wear,
-        evolving friction, bulk stress, surfaces that move, or increments in parts.
+        When a result or a number is not one of the case, or the case is of a kind that is not covered: with wear
+        by more than one coefficient or in jumps over cycles, evolving friction, bulk stress, surfaces that move, or
+        increments in parts.
     RunError
         When the run fails, or the linear equations of an increment are not solved.
     """
-    found, near = told(case, texts("of", of), texts("by", by), threads)
-    derivatives = Gradient(found)
-    derivatives.near_events = None if near is None else NearEvents(*near)
+    found, near = _core.gradient(_case.read(case), texts("of", of), texts("by", by), threads)
+    derivatives = Gradient({name: {"value": value, **by_path} for name, value, by_path, _ in found})
+    if near is not None:
+        derivatives.near_events = NearEvents(*near)
+        derivatives.on_the_other_side = {name: other for name, _, _, other in found if other is not None}
     return derivatives
 
 
@@ -91,7 +99,7 @@ def told(
     The latter is the increment, how many cells there are, and how many are in contact; None where there are none.
     """
     found, near = _core.gradient(_case.read(case), of, by, threads)
-    return {name: {"value": value, **derivatives} for name, value, derivatives in found}, near
+    return {name: {"value": value, **derivatives} for name, value, derivatives, _ in found}, near
 
 
 def near_in_words(near: tuple[int, int, int]) -> str:

@@ -64,12 +64,17 @@ def test_cells_about_to_change_their_state_are_told() -> None:
     history = fretting.run({**turned, "output": {"fields": ["pressure", "zone"], "every": 1}})
     pressed, slipped = history.field("pressure", 7) > 0, history.field("zone", 7) == 2
     for by in ("profile.sphere.radius", ["profile.sphere.radius", "friction.coefficient"]):  # forward, backwards
-        near = fretting.gradient(turned, of="max_pressure", by=by).near_events
+        found = fretting.gradient(turned, of="max_pressure", by=by)
+        near, other = found.near_events, found.on_the_other_side
         assert near is not None
+        assert other is not None
+        assert set(other["max_pressure"]) == set(found["max_pressure"]) - {"value"}
         assert near.increment == 8
         assert (near.cells, near.contact_cells) == (slipped.sum(), pressed.sum())
         assert near.share == pytest.approx(slipped.sum() / pressed.sum())
-        assert fretting.gradient(turned, of="increments[7].max_pressure", by=by).near_events is None
+        before = fretting.gradient(turned, of="increments[7].max_pressure", by=by)
+        assert before.near_events is None
+        assert before.on_the_other_side is None
 
 
 def test_without_names_all_numbers_are_taken() -> None:
@@ -94,7 +99,7 @@ def test_what_there_is_not_is_refused(of: str, by: str, told: str) -> None:
 
 def test_wear_is_refused_by_its_key() -> None:
     with pytest.raises(ValueError, match=r"\[wear\]"):
-        fretting.gradient({**CASE, "wear": {"coefficient": 1e-13}}, of="max_pressure")
+        fretting.gradient({**CASE, "wear": {"coefficient": 1e-13, "debris": {"fraction": 0.5}}}, of="max_pressure")
 
 
 def test_the_command_gives_the_same(tmp_path: Path) -> None:
@@ -152,7 +157,7 @@ def test_a_function_of_numbers_refuses_results_without_derivatives() -> None:
     for case, of, words in (
         (CASE, "increments[40].shift_x", "has 12 increments"),
         (CASE, "cycles[1].dissipated_energy", "has 1 cycles"),
-        ({**CASE, "wear": {"coefficient": 1e-13}}, "max_pressure", r"\[wear\]"),
+        ({**CASE, "wear": {"coefficient": 1e-13, "debris": {"fraction": 0.5}}}, "max_pressure", r"\[wear\]"),
     ):
         function = Results(case, of, by, None)
         for answer in (function.values, function.differentiated):

@@ -51,6 +51,14 @@ fn time() -> f64 {
     spent.map_or_else(|| START.elapsed().as_secs_f64(), |nanoseconds| 1e-9 * nanoseconds)
 }
 
+/// The most memory that the process has taken so far [MiB], where the system tells it.
+fn peak() -> f64 {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kilobytes = peak.and_then(|peak| peak.split_whitespace().next()?.parse::<f64>().ok());
+    kilobytes.unwrap_or(f64::NAN) / 1024.0
+}
+
 /// The least time of some runs of a closure, and what it gives.
 fn timed<T>(
     mut of: impl FnMut() -> Result<T, Box<dyn Error + Send + Sync>>,
@@ -75,7 +83,7 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
             let of_run: usize = history.steps.iter().map(|step| step.work.convolutions).sum();
             let in_full: f64 = history.steps.iter().map(|step| step.work.full_grid_convolutions).sum();
             let passes: usize = history.steps.iter().map(|step| step.work.preconditioner_passes).sum();
-            println!("{cells} x {cells} cells, {steps} increments: {run:.4} s");
+            println!("{cells} x {cells} cells, {steps} increments: {run:.4} s, {:.0} MiB", peak());
             println!(
                 "{:44} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7}",
                 "per increment", "linear", "others", "in full", "const.", "precon.", "time"
@@ -113,6 +121,12 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
                     per(work.of_constants),
                     per(work.preconditioner_passes),
                     (all - run) / run
+                );
+                println!(
+                    "{:44} {:.1} MiB kept, peak {:.0} MiB",
+                    "",
+                    work.kept_bytes as f64 / 1_048_576.0,
+                    peak()
                 );
             }
         }

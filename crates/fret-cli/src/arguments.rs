@@ -73,8 +73,8 @@ pub enum Verb {
     Export(ExportArguments),
     /// Refinement study: errors, orders of convergence and times over grids and increments, and which to choose
     Study(StudyArguments),
-    /// Exact derivatives of the results by the numbers of the case: what they depend on, and how much. Not covered: wear, evolving friction,
-    /// bulk stress, surfaces that move, increments = "auto"; constants of layers in line contacts, graded coatings
+    /// Exact derivatives of the results by the numbers of the case: what they depend on, and how much. Not covered: wear in jumps over cycles or by
+    /// layers, evolving friction, bulk stress, surfaces that move, increments = "auto"; constants of layers in line contacts, graded coatings
     Sensitivity(SensitivityArguments),
     /// Moved to `cargo xtask extremes`
     #[command(hide = true)]
@@ -121,8 +121,8 @@ pub struct PlannedArguments {
 pub struct SensitivityArguments {
     /// The case file (TOML); - reads it from standard input
     pub case: PathBuf,
-    /// A result: a column of the last increment (`max_pressure`), of another (`increments[7].shift_x`), or the energy of a cycle
-    /// (`cycles[0].dissipated_energy`); once for each [default: `max_pressure`, `approach`, and with friction `max_shear`, `dissipated_energy`]
+    /// A result: a column of the last increment (`max_pressure`), of another (`increments[7].shift_x`), the energy of a cycle
+    /// (`cycles[0].dissipated_energy`), a stress below the surface or a fatigue parameter (`stress.interface_shear`, `fatigue.crossland`); once for each [default: `max_pressure`, `approach`, and with friction `max_shear`, `dissipated_energy`]
     #[arg(long, value_name = "RESULT")]
     pub of: Vec<String>,
     /// A number of the case by its path (`friction.coefficient`, `lower.coatings[0].young`); once for each [default: all there are, or those

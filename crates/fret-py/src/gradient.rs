@@ -14,8 +14,11 @@ use crate::error::{RunError, failed, refused};
 use crate::simulation::listen;
 use crate::threads::{self, Threads};
 
-/// A result's name, its value, and its derivatives by path.
-type Found = Vec<(String, f64, BTreeMap<String, f64>)>;
+/// Derivatives by path.
+type ByPath = BTreeMap<String, f64>;
+
+/// A result's name, its value, its derivatives, and those on the other side of cells that are about to change their state.
+type Found = Vec<(String, f64, ByPath, Option<ByPath>)>;
 
 /// Where most cells are about to change their state: the increment, how many cells, and how many are in contact.
 type Near = Option<(usize, usize, usize)>;
@@ -32,8 +35,9 @@ pub fn gradient(
     let request = Request { of, by, direction: None };
     let found = found(py, case, threads, |plan, guest| sensitivity::gradient(plan, &request, guest))?;
     let paths: Vec<String> = found.parameters.iter().map(|entry| entry.path().to_owned()).collect();
-    let of = |gradient: sensitivity::Gradient| {
-        (gradient.of, gradient.value, paths.iter().cloned().zip(gradient.by).collect())
+    let by_path = |by: Vec<f64>| -> ByPath { paths.iter().cloned().zip(by).collect() };
+    let of = |sensitivity::Gradient { of, value, by, on_the_other_side }: sensitivity::Gradient| {
+        (of, value, by_path(by), on_the_other_side.map(by_path))
     };
     let near = found.near_events.map(|near| (near.increment, near.cells, near.contact));
     Ok((found.gradients.into_iter().map(of).collect(), near))

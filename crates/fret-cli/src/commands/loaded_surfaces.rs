@@ -4,9 +4,8 @@ use std::path::Path;
 
 use fret_core::case::{Side, StressRequest};
 use fret_core::machine::memory;
-use fret_core::model::Dimension;
 use fret_core::plan::memory_of_stress;
-use fret_core::subsurface::LoadedSurface;
+use fret_core::subsurface::{self, LoadedSurface};
 
 use crate::failure::Failure;
 use crate::interrupt;
@@ -54,23 +53,12 @@ pub fn loaded_surfaces(
     Ok(surfaces)
 }
 
-/// How deep to look: three times the largest radius, or half-width, of the loaded area, about its centre.
+/// How deep to look below these surfaces [length].
 pub fn reach(run: &Results, surfaces: &[LoadedSurface]) -> f64 {
-    let most = surfaces
-        .iter()
-        .map(|surface| surface.pressure.iter().filter(|pressure| **pressure > 0.0).count())
-        .max()
-        .unwrap_or(0);
-    let ([width, length], dimension) = (run.grid().size(), run.grid().dimension());
-    if run.case().periodic.is_both() {
-        return 0.5 * width.max(length);
-    }
-    let radius = dimension.radius(most as f64 * run.grid().cell_area());
-    match dimension {
-        _ if radius > 0.0 => 3.0 * radius,
-        Dimension::Plane => width.min(length),
-        Dimension::Line => width,
-    }
+    let loaded =
+        |surface: &LoadedSurface| surface.pressure.iter().filter(|pressure| **pressure > 0.0).count();
+    let most = surfaces.iter().map(loaded).max().unwrap_or(0);
+    subsurface::reach(run.grid(), run.case().periodic, most)
 }
 
 /// The call was interrupted.

@@ -131,6 +131,12 @@ fn logarithmic(by: f64, value: f64, parameter: f64) -> Option<f64> {
     (value != 0.0 && parameter != 0.0 && found.is_finite()).then_some(found)
 }
 
+/// By how much a derivative is another one on the other side of cells that are about to change their state, in per cent of it.
+fn share_of_events(by: f64, other: f64) -> String {
+    let share = 100.0 * (other - by) / by;
+    if share.is_finite() { format!("{share:+.2} %") } else { "-".to_owned() }
+}
+
 /// The answer for programs: of every result its value, and its derivatives by path.
 fn record(found: &Sensitivities) -> Value {
     let parameters: Map<String, Value> =
@@ -142,7 +148,15 @@ fn record(found: &Sensitivities) -> Value {
             let found = logarithmic(*derivative, gradient.value, entry.value());
             logarithms.insert(entry.path().to_owned(), json!(found));
         }
-        json!({ "value": gradient.value, "derivatives": by, "logarithmic_derivatives": logarithms })
+        let by_path = |by: &Vec<f64>| -> Map<String, Value> {
+            found.parameters.iter().zip(by).map(|(entry, by)| (entry.path().to_owned(), json!(by))).collect()
+        };
+        json!({
+            "value": gradient.value,
+            "derivatives": by,
+            "logarithmic_derivatives": logarithms,
+            "derivatives_on_the_other_side": gradient.on_the_other_side.as_ref().map(by_path),
+        })
     };
     let gradients: Map<String, Value> =
         found.gradients.iter().map(|gradient| (gradient.of.clone(), of(gradient))).collect();
@@ -165,23 +179,34 @@ fn table(found: &Sensitivities) -> String {
     let mut text = String::new();
     for gradient in &found.gradients {
         let _ = writeln!(text, "{} = {}", gradient.of, figure(gradient.value));
-        let _ = writeln!(text, "  {:<width$}  {:>12}  {:>12}", "by", "d ln / d ln", "derivative");
+        let others = gradient.on_the_other_side.as_ref();
+        let head = if others.is_some() { "  other side" } else { "" };
+        let _ = writeln!(text, "  {:<width$}  {:>12}  {:>12}{head}", "by", "d ln / d ln", "derivative");
         let mut rows: Vec<_> = found
             .parameters
             .iter()
             .zip(&gradient.by)
-            .map(|(entry, by)| (entry, *by, logarithmic(*by, gradient.value, entry.value())))
+            .enumerate()
+            .map(|(place, (entry, by))| {
+                let share = others.map(|others| share_of_events(*by, others[place]));
+                (entry, *by, logarithmic(*by, gradient.value, entry.value()), share)
+            })
             .collect();
         rows.sort_by(|one, other| {
             let size = |found: Option<f64>| found.map_or(0.0, f64::abs);
             size(other.2).total_cmp(&size(one.2))
         });
-        for (entry, by, found) in rows {
+        for (entry, by, found, share) in rows {
+            let share = share.map_or_else(String::new, |share| format!("  {share:>10}"));
             let shown = found.map_or_else(|| "-".to_owned(), |found| format!("{found:+.5}"));
             let bar = found.map_or(0, |found| ((found.abs() * UNIT_BAR).round() as usize).min(LONGEST_BAR));
             let sign = if found.is_some_and(|found| found < 0.0) { "-" } else { "+" };
-            let line =
-                format!("  {:<width$}  {shown:>12}  {:>12}  {}", entry.path(), figure(by), sign.repeat(bar));
+            let line = format!(
+                "  {:<width$}  {shown:>12}  {:>12}{share}  {}",
+                entry.path(),
+                figure(by),
+                sign.repeat(bar)
+            );
             let _ = writeln!(text, "{}", line.trim_end());
         }
         text.push('\n');
@@ -195,7 +220,7 @@ fn table(found: &Sensitivities) -> String {
         let _ = write!(
             text,
             "\nincrement {increment}: {cells} of {contact} cells are within a millionth of another state (open, stick, slip): derivatives on \
-             either side of the case differ there"
+             either side of the case differ there (other side: by how much with all such cells in the other state)"
         );
     }
     text

@@ -9,7 +9,8 @@ use std::time::Instant;
 use fret_core::case::{Side, StressRequest};
 use fret_core::model::{Body, HalfSpace};
 use fret_core::subsurface::{
-    DepthPoint, LoadedSurface, StressField, Tractions, automatic_depths, depth_points, displacements, survey,
+    AUTOMATIC, DepthPoint, LoadedSurface, StressField, Tractions, automatic_depths, depth_points,
+    displacements, survey,
 };
 use serde_json::json;
 
@@ -24,8 +25,6 @@ use crate::terminal::Answer;
 use fret_results::Results;
 use fret_results::folder_below;
 
-/// Depths chosen by `--auto`.
-const AUTOMATIC: usize = 64;
 /// Fields of a volume: stresses.
 const STRESSES: [Field; 8] = [
     ("xx", "pressure"),

@@ -3,6 +3,7 @@
 use super::cell_integrals::Moments;
 use super::cells::{CellCoefficients, Tables, coefficients};
 use super::depth_response::DepthResponse;
+use super::lattice_samples::WaveResponse;
 use super::line_depth::line_stress_coefficients;
 use super::quartets::{DisplacementFromAll, StressFromAll, StressFromPressure};
 use super::repeated::{repeated, with_images};
@@ -16,7 +17,7 @@ const STRESS_ODD: [[bool; 2]; 6] =
 
 /// Stress coefficients of one depth on a grid; shear is left out where it is not wanted. `memory` is written over.
 pub(crate) fn stress_coefficients(
-    response: &DepthResponse,
+    response: &impl WaveResponse,
     cells: [usize; 2],
     spacing: [f64; 2],
     with_shear: bool,
@@ -34,7 +35,7 @@ pub(crate) fn stress_coefficients(
 /// The same where the contact repeats along `axis` (0: x, 1: y), from tractions on all images: those of a line contact where nothing changes along
 /// that axis.
 pub(crate) fn repeated_stress_coefficients(
-    response: &DepthResponse,
+    response: &impl WaveResponse,
     (cells, spacing): ([usize; 2], [f64; 2]),
     axis: usize,
     with_shear: bool,

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::cells::CellCoefficients;
 use super::depth_response::{DepthResponse, Transfer};
+use super::lattice_samples::{BelowSurface, WaveResponse};
 
 /// Symbols of stress at one depth, shape `(nx/2 + 1, ny/2 + 1)`, in the convention of [`PeriodicSymbols`]: the transfer function
 /// is the value times `-i` for every axis along which the kernel is odd.
@@ -15,16 +16,15 @@ use super::depth_response::{DepthResponse, Transfer};
 ///
 /// [`PeriodicSymbols`]: super::PeriodicSymbols
 pub(crate) fn stress_symbols(
-    response: &DepthResponse,
+    response: &impl BelowSurface,
     cells: [usize; 2],
     spacing: [f64; 2],
 ) -> CellCoefficients<6> {
-    let nu = response.poisson();
-    let lateral = -nu / (1.0 - nu);
+    let [lateral, arrives] = response.under_uniform();
     let uniform = [
-        [lateral, lateral, -1.0, 0.0, 0.0, 0.0],
-        [0.0, 0.0, 0.0, 0.0, -1.0, 0.0],
-        [0.0, 0.0, 0.0, 0.0, 0.0, -1.0],
+        [lateral, lateral, -arrives, 0.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0, 0.0, -arrives, 0.0],
+        [0.0, 0.0, 0.0, 0.0, 0.0, -arrives],
     ];
     symbols(response, cells, spacing, uniform, |c, s, t, _| {
         [from_pressure(c, s, t), from_shear_x(c, s, t), exchanged(from_shear_x(s, c, t))]
@@ -80,7 +80,7 @@ fn exchanged([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> [f64; 6] {
 }
 
 fn symbols<const N: usize>(
-    response: &DepthResponse,
+    response: &impl WaveResponse,
     cells: [usize; 2],
     spacing: [f64; 2],
     uniform: [[f64; N]; 3],
@@ -103,7 +103,7 @@ fn symbols<const N: usize>(
             let k = (kx * kx + ky * ky).sqrt();
             if k > 0.0 {
                 let factor = factor_x * factor_y;
-                *value = of_wave(kx / k, ky / k, &response.at(k), k)
+                *value = of_wave(kx / k, ky / k, &response.transfer(k), k)
                     .map(|components| components.map(|component| component * factor));
             }
         }

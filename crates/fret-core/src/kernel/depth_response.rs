@@ -8,7 +8,8 @@ use super::complex::Wavenumber;
 use super::compliance_below::{Compliance, Descent};
 use super::layer::Carry;
 use super::layer_constants::LayerConstants;
-use super::stack_layer::{StackLayer, longest_length};
+use super::stack_layer::{LayerChanges, StackLayer, layers_with_changes, longest_length};
+use crate::fields::{Dual, Scalar};
 use crate::model::{Base, HalfSpace};
 
 /// Relative distance from an interface that is rounding of a sum of thicknesses.
@@ -16,15 +17,15 @@ const ROUNDING: f64 = 1e-9;
 
 /// A layered half-space cut at a depth, seen from one layer.
 #[derive(Clone, Debug)]
-pub(crate) struct DepthResponse {
+pub(crate) struct DepthResponse<C = f64> {
     depth: f64,
     /// From the surface down to the depth.
-    above: Vec<StackLayer>,
+    above: Vec<StackLayer<C>>,
     /// From the depth down.
-    below: Vec<StackLayer>,
-    base: Option<LayerConstants>,
+    below: Vec<StackLayer<C>>,
+    base: Option<LayerConstants<C>>,
     /// Of the layer the point lies in.
-    constants: LayerConstants,
+    constants: LayerConstants<C>,
     /// Longest length in the half-space, see `FrequencyResponse::longest_length`.
     longest: f64,
 }
@@ -56,15 +57,45 @@ impl DepthResponse {
             Base::Elastic(material) => Some(LayerConstants::new(material)),
             Base::Rigid => None,
         };
+        Self::cut(&layers, base, layer, depth)
+    }
+
+    /// Poisson's ratio where the point lies.
+    pub(crate) fn poisson(&self) -> f64 {
+        self.constants.poisson()
+    }
+}
+
+impl DepthResponse<Dual> {
+    /// The same with the derivatives of the constants of the layers by a parameter, from the surface down, those of the base last, and that of
+    /// the depth itself.
+    pub(crate) fn with_changes(
+        half_space: &HalfSpace,
+        changes: &[LayerChanges],
+        (layer, depth): (usize, Dual),
+    ) -> Self {
+        let (layers, base) = layers_with_changes(half_space, changes);
+        Self::cut(&layers, base, layer, depth)
+    }
+
+    /// Poisson's ratio where the point lies.
+    pub(crate) fn poisson(&self) -> Dual {
+        self.constants.nu
+    }
+}
+
+impl<C: Scalar> DepthResponse<C> {
+    fn cut(layers: &[StackLayer<C>], base: Option<LayerConstants<C>>, layer: usize, depth: C) -> Self {
         let layer = if base.is_none() { layer.min(layers.len() - 1) } else { layer.min(layers.len()) };
-        let top: f64 = layers[..layer].iter().map(|layer| layer.thickness).sum();
-        let mut within = (depth - top).max(0.0);
+        let top = layers[..layer].iter().fold(C::of(0.0), |top, layer| top + layer.thickness);
+        let mut within = (depth - top).max(C::of(0.0));
+        let rounding = ROUNDING * depth.value();
         if let Some(own) = layers.get(layer)
-            && (own.thickness - within).abs() <= ROUNDING * depth
+            && (own.thickness - within).value().abs() <= rounding
         {
             within = own.thickness;
-        } else if within <= ROUNDING * depth {
-            within = 0.0;
+        } else if within.value() <= rounding {
+            within = C::of(0.0);
         }
         let mut above = layers[..layer].to_vec();
         let mut below = Vec::new();
@@ -84,7 +115,8 @@ impl DepthResponse {
         };
         above.retain(|layer| !layer.is_empty());
         below.retain(|layer| !layer.is_empty());
-        let longest = depth.max(longest_length(&layers, base.as_ref()));
+        let depth = depth.value();
+        let longest = depth.max(longest_length(layers, base.as_ref()));
         Self { depth, above, below, base, constants, longest }
     }
 
@@ -93,18 +125,13 @@ impl DepthResponse {
         self.depth
     }
 
-    /// Poisson's ratio where the point lies.
-    pub(crate) fn poisson(&self) -> f64 {
-        self.constants.poisson()
-    }
-
     /// The longest length of the problem \[length\].
     pub(crate) fn longest_length(&self) -> f64 {
         self.longest
     }
 
     /// Response at a real or complex wavenumber.
-    pub(crate) fn at<T: Wavenumber<Constant = f64>>(&self, k: T) -> Transfer<T> {
+    pub(crate) fn at<T: Wavenumber<Constant = C>>(&self, k: T) -> Transfer<T> {
         let opaque = self.below.iter().position(|layer| layer.is_opaque(k));
         let (mut compliance, below) = match (opaque, &self.base) {
             (Some(index), _) => (self.below[index].constants.half_space(), &self.below[..index]),
@@ -129,20 +156,20 @@ impl DepthResponse {
         self.transfer(&at_depth, &descent)
     }
 
-    fn transfer<T: Wavenumber<Constant = f64>>(
+    fn transfer<T: Wavenumber<Constant = C>>(
         &self,
         below: &Compliance<T>,
         descent: &Descent<T>,
     ) -> Transfer<T> {
-        let (nu, mu) = (self.constants.poisson(), self.constants.shear_modulus());
+        let (nu, mu) = (self.constants.nu, self.constants.mu);
+        let across_nu = C::of(1.0) - nu;
         let (c, t) = (below.in_plane, descent.in_plane);
         let shear = [t.rr, t.rz];
         let normal = [t.zr, t.zz];
         let tangential = [0, 1].map(|n| c.rr * shear[n] + c.rz * normal[n]);
         let depthwise = [0, 1].map(|n| c.rz * shear[n] + c.zz * normal[n]);
         // Hooke's law with the stretch along the wave given and the normal traction: finite at nu = 1/2
-        let along =
-            [0, 1].map(|n| -(tangential[n] * (2.0 * mu / (1.0 - nu)) + normal[n] * (nu / (1.0 - nu))));
+        let along = [0, 1].map(|n| -(tangential[n] * (mu * 2.0 / across_nu) + normal[n] * (nu / across_nu)));
         let across = [0, 1].map(|n| (along[n] - normal[n]) * nu);
         let sideways = below.tt * descent.across;
         Transfer {

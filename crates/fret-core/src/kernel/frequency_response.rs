@@ -5,9 +5,9 @@ use super::complex::Wavenumber;
 use super::compliance_below::Compliance;
 use super::layer::Carry;
 use super::layer_constants::LayerConstants;
-use super::stack_layer::{LayerChanges, StackLayer, longest_length};
+use super::stack_layer::{LayerChanges, StackLayer, layers_with_changes, longest_length};
 use crate::fields::{Dual, Scalar};
-use crate::model::{Base, Coating, ConductingLayer, Conductor, HalfSpace};
+use crate::model::{Base, ConductingLayer, Conductor, HalfSpace};
 
 /// Surface displacement per traction at one wavenumber.
 ///
@@ -106,18 +106,8 @@ impl FrequencyResponse {
     /// The response with every layer in its place and the derivatives of their constants by a parameter, from the surface down, those of the base
     /// last (Young's modulus, Poisson's ratio).
     pub(crate) fn with_changes(half_space: &HalfSpace, changes: &[LayerChanges]) -> FrequencyResponse<Dual> {
-        let none = LayerChanges::default();
-        let of = |index: usize| changes.get(index).unwrap_or(&none);
-        let coatings = half_space.coatings();
-        let layer = |(index, coating): (usize, &Coating)| {
-            StackLayer::of(coating).with_changes(coating.material(), of(index))
-        };
-        let LayerChanges { young, poisson, .. } = *of(coatings.len());
-        let base = match half_space.base() {
-            Base::Elastic(material) => Some(LayerConstants::with_changes(material, [young, poisson])),
-            Base::Rigid => None,
-        };
-        FrequencyResponse { layers: coatings.iter().enumerate().map(layer).collect(), base, conducts: false }
+        let (layers, base) = layers_with_changes(half_space, changes);
+        FrequencyResponse { layers, base, conducts: false }
     }
 
     /// The thinnest coating's thickness \[length\]; none without coatings.

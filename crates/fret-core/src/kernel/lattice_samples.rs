@@ -9,8 +9,8 @@ use super::hankel_lattice::HankelLattice;
 use super::pair_response::PairResponse;
 use super::stack_layer::LayerChanges;
 use super::with_change::WithChange;
-use crate::fields::Dual;
-use crate::model::ContactPair;
+use crate::fields::{Dual, Scalar};
+use crate::model::{ContactPair, HalfSpace};
 
 /// What answers a traction wave by its wavenumber alone, at some depth.
 pub(crate) trait WaveResponse: Sync {
@@ -37,6 +37,63 @@ impl WaveResponse for DepthResponse {
 
     fn depth(&self) -> f64 {
         Self::depth(self)
+    }
+}
+
+/// What stands below a point of one body under tractions on its surface: the response itself, or how it changes with a parameter.
+pub(crate) trait BelowSurface: WaveResponse {
+    /// Under uniform tractions whose period is held: stress along the surface by pressure, and what arrives of the tractions.
+    fn under_uniform(&self) -> [f64; 2];
+}
+
+impl BelowSurface for DepthResponse {
+    fn under_uniform(&self) -> [f64; 2] {
+        let nu = self.poisson();
+        [-nu / (1.0 - nu), 1.0]
+    }
+}
+
+/// How the response at a depth changes with a parameter: one more response, to which every linear rule applies as to the first.
+pub(crate) struct DepthChange(DepthResponse<Dual>);
+
+impl DepthChange {
+    /// Of a half-space seen from a layer at a depth with its derivative, by the derivatives of the constants of the layers, from the surface
+    /// down, those of the base last.
+    pub(crate) fn new(half_space: &HalfSpace, changes: &[LayerChanges], at: (usize, Dual)) -> Self {
+        Self(DepthResponse::with_changes(half_space, changes, at))
+    }
+}
+
+impl WaveResponse for DepthChange {
+    fn transfer<T: Wavenumber<Constant = f64>>(&self, k: T) -> Transfer<T> {
+        let of = self.0.at(WithChange { value: k, change: T::zero() });
+        let pair = |pair: [WithChange<T>; 2]| pair.map(|of| of.change);
+        Transfer {
+            normal: pair(of.normal),
+            shear: pair(of.shear),
+            along: pair(of.along),
+            across: pair(of.across),
+            tangential: pair(of.tangential),
+            depthwise: pair(of.depthwise),
+            twist_shear: of.twist_shear.change,
+            in_plane_shear: of.in_plane_shear.change,
+            sideways: of.sideways.change,
+        }
+    }
+
+    fn longest_length(&self) -> f64 {
+        self.0.longest_length()
+    }
+
+    fn depth(&self) -> f64 {
+        self.0.depth()
+    }
+}
+
+impl BelowSurface for DepthChange {
+    fn under_uniform(&self) -> [f64; 2] {
+        let nu = self.0.poisson();
+        [(-nu / (Dual::of(1.0) - nu)).change, 0.0]
     }
 }
 

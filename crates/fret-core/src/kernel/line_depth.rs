@@ -15,8 +15,9 @@ use rayon::prelude::*;
 
 use super::cells::CellCoefficients;
 use super::complex::{Complex, Wavenumber};
-use super::depth_response::{DepthResponse, Transfer};
+use super::depth_response::Transfer;
 use super::interpolation::{REACH, interpolated};
+use super::lattice_samples::WaveResponse;
 use super::line_kernels::LineLattice;
 
 /// Kernels side by side: from pressure xx, yy, zz, xz; from `q_x` the same; from `q_y` xy, yz.
@@ -55,7 +56,7 @@ struct Primitives {
 }
 
 impl Primitives {
-    fn new(response: &DepthResponse, half: f64, greatest: f64) -> Self {
+    fn new(response: &impl WaveResponse, half: f64, greatest: f64) -> Self {
         let lattice = LineLattice::standard();
         let step = lattice.step();
         let margin = REACH as i32 + 1;
@@ -73,14 +74,14 @@ impl Primitives {
         let real: Vec<Lanes> = (first..end(lattice.last_real()))
             .into_par_iter()
             .with_min_len(32)
-            .map(|m| lanes(&response.at(wavenumber(m))))
+            .map(|m| lanes(&response.transfer(wavenumber(m))))
             .collect();
         let direction = Complex::polar(1.0, lattice.angle());
         let ray: Vec<[Lanes; 2]> = (first..end(lattice.last_ray()))
             .into_par_iter()
             .with_min_len(32)
             .map(|m| {
-                let found = lanes(&response.at(direction * wavenumber(m)));
+                let found = lanes(&response.transfer(direction * wavenumber(m)));
                 [found.map(|value| value.re), found.map(|value| value.im)]
             })
             .collect();
@@ -130,7 +131,7 @@ impl Primitives {
 /// Stress under the middle of the strip at offset `i` by unit pressure, and unit shear across and along the line, on the strip at 0;
 /// shape `(strips, 1)`. Good to about 1e-13 of the traction.
 pub(crate) fn line_stress_coefficients(
-    response: &DepthResponse,
+    response: &impl WaveResponse,
     strips: usize,
     spacing: f64,
     with_shear: bool,
@@ -155,6 +156,7 @@ pub(crate) fn line_stress_coefficients(
 
 #[cfg(test)]
 mod tests {
+    use super::super::depth_response::DepthResponse;
     use super::super::samples::stack;
     use super::*;
     use std::f64::consts::PI;

@@ -54,6 +54,7 @@ pub use influence::{
     Components, InfluenceCoefficients, coefficients_by, coefficients_of, influence_coefficients,
 };
 pub use lattice_samples::ResponseChange;
+pub(crate) use lattice_samples::{BelowSurface, DepthChange};
 pub use line_influence::{line_coefficients, line_coefficients_of};
 pub use pair_response::PairResponse;
 pub use periodic::{PeriodicSymbols, periodic_symbols, symbols_by, symbols_of, uniform_response};

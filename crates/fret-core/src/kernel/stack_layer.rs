@@ -6,7 +6,7 @@ use super::layer::{Carry, LayerMatrices, OPAQUE};
 use super::layer_constants::LayerConstants;
 use super::matrix::Symmetric;
 use crate::fields::{Dual, Scalar};
-use crate::model::{Coating, ElasticMaterial, Interface};
+use crate::model::{Base, Coating, ElasticMaterial, HalfSpace, Interface};
 
 /// A frictionless interface is a shear spring with a compliance of so many times the layer's thickness over its shear modulus: exact to
 /// the last bit for `k h` down to 1e-20 and more, since every number made of it is a sum or a ratio of positive terms.
@@ -70,12 +70,6 @@ impl StackLayer {
         Self { constants, thickness, springs: Springs::of(coating.interface(), free) }
     }
 
-    /// The part of the layer above a cut, and the part below it with the springs.
-    pub(crate) fn cut(self, within: f64) -> [Self; 2] {
-        let below = Self { thickness: (self.thickness - within).max(0.0), ..self };
-        [Self::bonded(self.constants, within), below]
-    }
-
     /// The same with the derivatives of its constants by a parameter: of Young's modulus, Poisson's ratio, thickness, and the compliances of
     /// its springs; `material`: that of the layer.
     pub(crate) fn with_changes(self, material: &ElasticMaterial, changes: &LayerChanges) -> StackLayer<Dual> {
@@ -88,11 +82,6 @@ impl StackLayer {
                 shear: Dual::new(self.springs.shear, shear),
             },
         }
-    }
-
-    /// Whether there is nothing of it, springs included.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.thickness == 0.0 && self.springs.are_none()
     }
 }
 
@@ -111,6 +100,26 @@ pub struct LayerChanges {
     pub shear: f64,
 }
 
+/// The layers of a half-space and its base, with the derivatives of their constants by a parameter, from the surface down, those of the base
+/// last (Young's modulus, Poisson's ratio).
+pub(super) fn layers_with_changes(
+    half_space: &HalfSpace,
+    changes: &[LayerChanges],
+) -> (Vec<StackLayer<Dual>>, Option<LayerConstants<Dual>>) {
+    let none = LayerChanges::default();
+    let of = |index: usize| changes.get(index).unwrap_or(&none);
+    let coatings = half_space.coatings();
+    let layer = |(index, coating): (usize, &Coating)| {
+        StackLayer::of(coating).with_changes(coating.material(), of(index))
+    };
+    let LayerChanges { young, poisson, .. } = *of(coatings.len());
+    let base = match half_space.base() {
+        Base::Elastic(material) => Some(LayerConstants::with_changes(material, [young, poisson])),
+        Base::Rigid => None,
+    };
+    (coatings.iter().enumerate().map(layer).collect(), base)
+}
+
 impl LayerConstants<Dual> {
     /// Constants of a material with their derivatives by a parameter, of which those of Young's modulus and Poisson's ratio are given.
     pub(crate) fn with_changes(material: &ElasticMaterial, [young, poisson]: [f64; 2]) -> Self {
@@ -122,6 +131,17 @@ impl<C: Scalar> StackLayer<C> {
     /// A bonded layer.
     pub(crate) fn bonded(constants: LayerConstants<C>, thickness: C) -> Self {
         Self { constants, thickness, springs: Springs::none() }
+    }
+
+    /// The part of the layer above a cut, and the part below it with the springs.
+    pub(crate) fn cut(self, within: C) -> [Self; 2] {
+        let below = Self { thickness: (self.thickness - within).max(C::of(0.0)), ..self };
+        [Self::bonded(self.constants, within), below]
+    }
+
+    /// Whether there is nothing of it, springs included.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.thickness.value() == 0.0 && self.springs.are_none()
     }
 
     /// Whether a wave so short is not felt through the layer, to the last bit.

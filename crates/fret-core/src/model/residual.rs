@@ -33,14 +33,23 @@ impl ResidualStress {
 
     /// Stress along x and y at a depth seen from a layer of the body [pressure].
     pub fn at(&self, half_space: &HalfSpace, layer: usize, depth: f64) -> [f64; 2] {
+        self.named(half_space, layer).map_or([0.0; 2], |named| named.at(depth - named.top))
+    }
+
+    /// How that changes with the depth below the upper face of the layer [pressure/length].
+    pub fn slope(&self, half_space: &HalfSpace, layer: usize, depth: f64) -> [f64; 2] {
+        self.named(half_space, layer).map_or([0.0; 2], |named| named.slope(depth - named.top))
+    }
+
+    /// The named layer that holds one of the half-space.
+    fn named(&self, half_space: &HalfSpace, layer: usize) -> Option<&ResidualLayer> {
         // A graded coating is many layers of the half-space: the one that is named holds the middle of each.
         let above: f64 = half_space.coatings().iter().take(layer).map(Coating::thickness).sum();
         let middle = half_space
             .coatings()
             .get(layer)
             .map_or(f64::INFINITY, |coating| above + 0.5 * coating.thickness());
-        let named = self.layers.iter().rev().find(|named| named.top <= middle);
-        named.map_or([0.0; 2], |named| named.at(depth - named.top))
+        self.layers.iter().rev().find(|named| named.top <= middle)
     }
 }
 
@@ -56,6 +65,14 @@ impl ResidualLayer {
         };
         let fraction = (depth - from) / (to - from);
         [0, 1].map(|axis| above[axis] + fraction * (below[axis] - above[axis]))
+    }
+
+    fn slope(&self, depth: f64) -> [f64; 2] {
+        let pair = self.rows.windows(2).find(|pair| pair[0].0 < depth && depth <= pair[1].0);
+        let Some([(from, above), (to, below)]) = pair.and_then(|pair| <&[_; 2]>::try_from(pair).ok()) else {
+            return [0.0; 2];
+        };
+        [0, 1].map(|axis| (below[axis] - above[axis]) / (to - from))
     }
 }
 
@@ -78,6 +95,8 @@ mod tests {
         assert_eq!([at(0, 0.0), at(0, 0.5), at(1, 0.5), at(1, 1.0)], [[-3.0, -1.0]; 4]);
         assert_eq!(at(2, 1.0), [-2.0, -2.0]);
         assert_eq!(at(2, 2.0), [-1.5, -1.5]);
+        let slope = |layer, depth| residual.slope(&body, layer, depth);
+        assert_eq!([slope(1, 0.7), slope(2, 2.0), slope(2, 6.0)], [[0.0; 2], [0.5; 2], [0.0; 2]]);
         assert_eq!(at(2, 9.0), [0.0, 0.0]);
         assert_eq!(ResidualStress::default().at(&body, 1, 0.7), [0.0, 0.0]);
     }

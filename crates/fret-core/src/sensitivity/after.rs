@@ -7,6 +7,7 @@ use super::energies::{Energies, Inputs, Outputs};
 use super::rule::{PathChange, Rule, combination, product};
 use super::scene::{MOTION_OF, Scene};
 use super::solved::{Solved, at, deep_by, moved_by};
+use super::wear::Wear;
 use crate::fields::{Slopes, add_scaled};
 use crate::model::{CoulombFriction, Zone};
 use crate::solver::rate_since_touch;
@@ -25,6 +26,7 @@ pub(super) struct After<'a> {
     forces: [f64; 6],
     entered: Vec<Entered>,
     energies: Energies<'a>,
+    wear: Option<Wear>,
     goes_on: bool,
 }
 
@@ -47,7 +49,8 @@ impl<'a> After<'a> {
         let [pressure, x, y] = &now.tractions;
         let forces = scene.resultants([pressure, x, y]);
         let energies = Energies::new(scene, [now, before], (law, rule));
-        Self { scene, forces, entered, energies, goes_on }
+        let wear = scene.plan.case.wear.as_ref().map(|of| Wear::new(of, scene, [now, before], (law, rule)));
+        Self { scene, forces, entered, energies, wear, goes_on }
     }
 
     /// Completes the changes of `next`, of which the loads are known.
@@ -64,7 +67,8 @@ impl<'a> After<'a> {
         next.motions = solution.motions;
         let [normal, along_x, along_y] = &solution.displacements;
         for (cell, place) in scene.places.iter().enumerate() {
-            next.gap[cell] = drive.gap[cell] + normal[cell] - deep_by(&solution.motions, *place);
+            let worn = before.worn.get(cell).copied().unwrap_or(0.0);
+            next.gap[cell] = drive.gap[cell] + worn + normal[cell] - deep_by(&solution.motions, *place);
             if scene.is_frictional() {
                 let [x, y] = moved_by(&solution.motions, *place);
                 next.slid[0][cell] = x - along_x[cell];
@@ -76,6 +80,11 @@ impl<'a> After<'a> {
         }
         next.energies =
             self.energies.forward(&Inputs { before, next, solution, paths, friction: drive.friction });
+        if let Some(wear) = &self.wear {
+            let inputs = Inputs { before, next, solution, paths, friction: drive.friction };
+            let collected = wear.forward(&inputs, drive.wear);
+            (next.worn, next.collected) = wear.taken_off(before, collected);
+        }
         let forces = scene.resultants([pressure, x, y]);
         next.reached = scene.reached(forces, &solution.motions, scene.springs());
         for (freedom, by) in drive.rig.into_iter().enumerate() {
@@ -126,6 +135,12 @@ impl<'a> After<'a> {
             displacements: super::fields::zeros(cells),
             motions: [0.0; MOTIONS],
         };
+        if let Some(wear) = &self.wear {
+            let collected = wear.taken_off_transposed(next, before);
+            let Drive { friction, wear: coefficient, .. } = drive;
+            let mut to = Outputs { before, next, solution: &mut solution, paths, friction };
+            wear.transposed(&collected, &mut to, coefficient);
+        }
         if next.energies != [0.0; 4] {
             let energies = next.energies;
             let Drive { friction, .. } = drive;
@@ -137,6 +152,9 @@ impl<'a> After<'a> {
             let [x, y] = *place;
             let gap = next.gap[cell];
             drive.gap[cell] += gap;
+            if let Some(worn) = before.worn.get_mut(cell) {
+                *worn += gap;
+            }
             solution.displacements[0][cell] += gap;
             let mut slid = [0.0; 2];
             if scene.is_frictional() {

@@ -2,62 +2,39 @@
 //! problem for each increment and objective serves all numbers of the case.
 
 use std::ops::ControlFlow;
-use std::sync::Arc;
 
 use super::change::Change;
 use super::constants::Constants;
 use super::contact::Drive;
 use super::error::SensitivityError;
-use super::events::{NearEvents, near_events};
+use super::events::{NearEvents, SideOfEvents, cells_near_events, with_cells};
 use super::forward::change_of_gap;
 use super::increment::{ENOUGH, Increment};
-use super::loads::Load;
 use super::objective::{Column, Row};
 use super::operators::Operators;
 use super::parameter::Parameter;
-use super::replay::Replay;
-use super::scene::{Scene, Snapshot};
+use super::past::Past;
+use super::scene::Scene;
+use super::snapshot::Snapshot;
 use super::solved::Solved;
 use super::work::Work;
 use crate::fields::{add_scaled, dot};
 use crate::model::controls::FREEDOMS;
-use crate::run::{PairCompliance, RunError};
+use crate::run::RunError;
 
-/// Bytes a cell of an increment that is kept: eleven fields and the zone.
-pub(super) const BYTES: usize = 89;
-
-/// An objective: its name, its value, and columns of increments, each with its weight.
+/// An objective: its name, its value, columns of increments, each with its weight, and what it changes with each number of the case beside these.
 pub(super) struct Target {
     pub of: String,
     pub value: f64,
     pub columns: Vec<(usize, Column, f64)>,
+    pub aside: Vec<f64>,
 }
 
-/// A history that was solved, increment by increment.
-pub(super) struct Past {
-    start: Solved,
-    increments: Vec<(Load, Solved)>,
-    operators: Operators,
-}
-
-impl Past {
-    /// Goes through a history; `None` where bodies come apart, or no load changes in an increment: then derivatives go forward.
-    pub fn of(
-        scene: &Scene<'_>,
-        pair: &Arc<PairCompliance>,
-        steps: &[Snapshot],
-    ) -> Result<Option<Self>, SensitivityError> {
-        let mut operators = scene.operators(pair)?;
-        let mut replay = Replay::new(scene);
-        let mut increments: Vec<(Load, Solved)> = Vec::with_capacity(steps.len());
-        for (number, step) in steps.iter().enumerate() {
-            let state = number.checked_sub(1).map(|last| &steps[last].state);
-            let past = [1, 2].map(|back| number.checked_sub(back).map(|at| &increments[at].1));
-            let next = replay.next((step, state), past, &mut operators);
-            let Some(solved) = next.solved.filter(|solved| solved.contact.len() > 0) else { return Ok(None) };
-            increments.push((next.load, solved));
-        }
-        Ok(Some(Self { start: replay.start, increments, operators }))
+impl Target {
+    /// Its derivatives by all numbers, from those of its columns.
+    pub fn with_aside(&self, mut by: Vec<f64>) -> Vec<f64> {
+        add_scaled(&mut by, 1.0, &self.aside);
+        by
     }
 }
 
@@ -67,6 +44,7 @@ struct Gathered {
     changes: [Change; 3],
     gap: Vec<f64>,
     rig: [f64; 3],
+    wear: f64,
     /// Coefficient and strength, and numbers of the controls, stage by stage.
     friction: Vec<[f64; 2]>,
     controls: Vec<[f64; FREEDOMS]>,
@@ -75,10 +53,11 @@ struct Gathered {
 }
 
 impl Gathered {
-    fn nothing(cells: usize, stages: usize) -> Self {
+    fn nothing(scene: &Scene<'_>, stages: usize) -> Self {
         Self {
-            changes: [(); 3].map(|()| Change::none(cells)),
-            gap: vec![0.0; cells],
+            changes: [(); 3].map(|()| scene.no_change()),
+            gap: vec![0.0; scene.region.len()],
+            wear: 0.0,
             rig: [0.0; 3],
             friction: vec![[0.0; 2]; stages],
             controls: vec![[0.0; FREEDOMS]; stages],
@@ -97,7 +76,7 @@ impl Gathered {
     /// Its derivative by a number that is no constant of a body.
     fn by(&self, parameter: &Parameter, scene: &Scene<'_>) -> f64 {
         let case = &scene.plan.case;
-        let mut sum = 0.0;
+        let mut sum = self.wear * parameter.change_of_wear();
         if parameter.is_of_shape() {
             sum += dot(&self.gap, &change_of_gap(parameter, scene));
         }
@@ -119,37 +98,46 @@ impl Gathered {
 }
 
 /// Derivatives of targets by all numbers, where most cells are about to change their state, and what that took.
-type Found = (Vec<Vec<f64>>, Option<NearEvents>, Work);
+pub(super) type Found = (Vec<Vec<f64>>, Option<NearEvents>, Work);
 
-/// Derivatives of the targets by all numbers. `visit` is told every increment.
+/// Derivatives of the targets by all numbers, on the side of the solution or on the other one, with all cells that are about to change their state
+/// in that. `visit` is told every increment.
 pub(super) fn backward(
     scene: &Scene<'_>,
-    (mut past, steps): (Past, &[Snapshot]),
+    (past, operators, steps): (&mut Past<'_>, &mut Operators, &[Snapshot]),
+    side: SideOfEvents,
     parameters: &[Parameter],
     targets: &[Target],
     mut visit: impl FnMut(&Snapshot) -> ControlFlow<()>,
 ) -> Result<Found, SensitivityError> {
     let (cells, stages) = (scene.region.len(), scene.plan.case.stages.len());
-    let mut gathered: Vec<Gathered> = targets.iter().map(|_| Gathered::nothing(cells, stages)).collect();
+    let mut gathered: Vec<Gathered> = targets.iter().map(|_| Gathered::nothing(scene, stages)).collect();
     let mut constants = Constants::new(scene, parameters, targets.len())?;
     let mut most: Option<NearEvents> = None;
     for number in (0..steps.len()).rev() {
-        let (load, now) = &past.increments[number];
+        past.come_to(number, operators)?;
+        let (load, now, before) = past.at(number);
         for (gathered, target) in gathered.iter_mut().zip(targets) {
             gathered.take(target, (number, load.stage), now);
         }
         if visit(&steps[number]).is_break() {
             return Err(RunError::Interrupted { increment: number }.into());
         }
-        let before =
-            [1, 2].map(|back| number.checked_sub(back).map_or(&past.start, |at| &past.increments[at].1));
-        let increment = Increment::new(scene, (&steps[number].record, load), now, before);
-        let own = past.operators.self_influence();
-        let near = near_events((scene, now, number), &increment.contact, [own.normal, own.tangential]);
+        let record = &steps[number].record;
+        let increment = Increment::new(scene, (record, load), now, before);
+        let own = operators.self_influence();
+        let near = cells_near_events((scene, now), &increment.contact, [own.normal, own.tangential]);
         // The earliest of those with as many, as forward.
-        if near.cells > 0 && near.cells >= most.map_or(0, |most| most.cells) {
+        if let Some(near) = NearEvents::of((scene, now, number), near.len())
+            && near.cells >= most.map_or(0, |most| most.cells)
+        {
             most = Some(near);
         }
+        let other = (side == SideOfEvents::Other && !near.is_empty()).then(|| with_cells(now, &near));
+        let increment = match &other {
+            Some(other) => Increment::new(scene, (record, load), other, before),
+            None => increment,
+        };
         if gathered.iter().all(|gathered| gathered.changes[0].is_none()) {
             for gathered in &mut gathered {
                 gathered.changes.rotate_left(1);
@@ -157,10 +145,10 @@ pub(super) fn backward(
             continue;
         }
         constants.begin(&now.tractions);
-        let mut equations = increment.equations(&mut past.operators)?;
+        let mut equations = increment.equations(operators)?;
         for (objective, (gathered, target)) in gathered.iter_mut().zip(targets).enumerate() {
             let [after, before, former] = &mut gathered.changes;
-            let after = std::mem::replace(after, Change::none(cells));
+            let after = std::mem::replace(after, scene.no_change());
             if after.is_none() {
                 gathered.changes.rotate_left(1);
                 continue;
@@ -187,6 +175,7 @@ pub(super) fn backward(
             for (sum, by) in gathered.rig.iter_mut().zip(drive.rig) {
                 *sum += by;
             }
+            gathered.wear += drive.wear;
             constants.take(objective, &now.tractions, &drive.response);
             gathered.changes.rotate_left(1);
         }
@@ -201,6 +190,6 @@ pub(super) fn backward(
             |(number, parameter)| gathered.by(parameter, scene) + constants.derivative(objective, number);
         parameters.iter().enumerate().map(of).collect()
     };
-    let work = Work::of(&past.operators, constants.applications());
+    let work = Work::of(operators, constants.applications());
     Ok((gathered.iter().enumerate().map(by).collect(), most, work))
 }

@@ -6,8 +6,8 @@ use crate::kernel::{Components, LayerChanges, ResponseChange, coefficients_by, s
 use crate::model::{Body, HalfSpace};
 use crate::plan::{Coupling, Plan};
 
-/// Derivative of the response on the cells of a plan's grid by a constant of one of its bodies.
-pub(super) fn change_of_response(plan: &Plan, number: BodyNumber) -> SurfaceResponse {
+/// Derivative of the response by a constant of one of the bodies of a plan, over so many cells; of one that repeats over its period.
+pub(super) fn change_of_response(plan: &Plan, number: BodyNumber, cells: [usize; 2]) -> SurfaceResponse {
     let wanted = match plan.coupling {
         Coupling::Frictionless => Components::NORMAL,
         Coupling::Uncoupled => Components { normal: true, tangential: true, coupling: false },
@@ -20,9 +20,9 @@ pub(super) fn change_of_response(plan: &Plan, number: BodyNumber) -> SurfaceResp
         Body::Elastic(half_space) => changes_of(half_space, number),
     };
     let changes: [&[LayerChanges]; 2] = if number.of_upper { [&[], &changes] } else { [&changes, &[]] };
-    let (cells, spacing) = (plan.case.cells, plan.grid.spacing());
+    let spacing = plan.grid.spacing();
     if plan.case.periodic.is_both() {
-        SurfaceResponse::Periodic(symbols_by(bodies, changes, cells, spacing, wanted))
+        SurfaceResponse::Periodic(symbols_by(bodies, changes, plan.case.cells, spacing, wanted))
     } else {
         let change = ResponseChange::new(bodies, changes);
         SurfaceResponse::FreeSpace(coefficients_by(&change, cells, spacing, wanted))
@@ -30,7 +30,7 @@ pub(super) fn change_of_response(plan: &Plan, number: BodyNumber) -> SurfaceResp
 }
 
 /// Derivatives of the constants of all layers of a body by one of them, from the surface down, those of the substrate last.
-fn changes_of(half_space: &HalfSpace, number: BodyNumber) -> Vec<LayerChanges> {
+pub(super) fn changes_of(half_space: &HalfSpace, number: BodyNumber) -> Vec<LayerChanges> {
     let coatings = half_space.coatings();
     let mut changes = vec![LayerChanges::default(); coatings.len() + 1];
     let index = number.coating.unwrap_or(coatings.len());

@@ -22,6 +22,9 @@ pub(super) struct Change {
     pub slid: Tangential,
     /// What the rule of slip takes for the drift of the increment.
     pub drift: Tangential,
+    /// Depth worn off, and what has been collected to be worn off; nothing where nothing wears.
+    pub worn: Vec<f64>,
+    pub collected: Vec<f64>,
     /// Rotations times the length.
     pub motions: [f64; MOTIONS],
     /// Dissipated, stored, external and unresolved energy of the whole contact.
@@ -47,6 +50,8 @@ impl Change {
             gap: vec![0.0; cells],
             slid: tangential(),
             drift: tangential(),
+            worn: Vec::new(),
+            collected: Vec::new(),
             motions: [0.0; MOTIONS],
             energies: [0.0; 4],
             reached: Reached::default(),
@@ -61,11 +66,20 @@ impl Change {
     /// All its numbers, part by part.
     pub fn parts(&self) -> impl Iterator<Item = &[f64]> {
         let Self { shear, slid, drift, reached, .. } = self;
-        let fields = [&self.pressure, &self.gap].into_iter().chain(shear).chain(slid).chain(drift);
+        let worn = [&self.worn, &self.collected];
+        let fields =
+            [&self.pressure, &self.gap].into_iter().chain(shear).chain(slid).chain(drift).chain(worn);
         let loads = [&self.start, &self.held, &self.from, &self.load].into_iter().map(|load| &load[..]);
         let small =
             [&self.motions[..], &self.energies, reached.as_flattened(), std::slice::from_ref(&self.ratio)];
         fields.map(Vec::as_slice).chain(loads).chain(small)
+    }
+
+    /// The same of surfaces that wear.
+    #[must_use]
+    pub fn of_wear(self, wears: bool) -> Self {
+        let cells = if wears { self.gap.len() } else { 0 };
+        Self { worn: vec![0.0; cells], collected: vec![0.0; cells], ..self }
     }
 
     /// Whether all are zero.

@@ -42,6 +42,8 @@ pub(super) struct Drive {
     pub friction: [f64; 2],
     /// Compliances of the machine: normal, along x and y [length/force].
     pub rig: [f64; 3],
+    /// Wear coefficient [1/pressure].
+    pub wear: f64,
     /// Displacements of the tractions by the change of the response [length].
     pub response: Fields,
 }
@@ -49,7 +51,7 @@ pub(super) struct Drive {
 impl Drive {
     /// Nothing, in a region of so many cells.
     pub fn none(cells: usize) -> Self {
-        Self { gap: vec![0.0; cells], friction: [0.0; 2], rig: [0.0; 3], response: zeros(cells) }
+        Self { gap: vec![0.0; cells], friction: [0.0; 2], rig: [0.0; 3], wear: 0.0, response: zeros(cells) }
     }
 }
 
@@ -104,7 +106,7 @@ impl<'a> Contact<'a> {
     pub fn asked(&self, before: &Change, next: &Change, (paths, drive): (&PathChange, &Drive)) -> Asked {
         let mut asked = zeros(self.cells.len());
         for ((place, cell), does) in self.set.cells().enumerate().zip(&self.cells) {
-            asked[0][place] = -drive.gap[cell];
+            asked[0][place] = -drive.gap[cell] - before.worn.get(cell).copied().unwrap_or(0.0);
             let (slid, ahead) = (at(&before.slid, cell), at(&paths.ahead, place));
             let [x, y] = [0, 1].map(|axis| -slid[axis] - ahead[axis]);
             if let Some(row) = does.row() {
@@ -134,6 +136,9 @@ impl<'a> Contact<'a> {
         let [normal, x, y] = self.seen(&of.displacements);
         for (place, cell) in self.set.cells().enumerate() {
             drive.gap[cell] -= normal[place];
+            if let Some(worn) = before.worn.get_mut(cell) {
+                *worn -= normal[place];
+            }
             for (axis, along) in [&x, &y].into_iter().enumerate() {
                 before.slid[axis][cell] -= along[place];
                 paths.ahead[axis][place] -= along[place];

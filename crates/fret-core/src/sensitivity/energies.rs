@@ -13,9 +13,9 @@ use crate::solver::{FrictionLaw, dissipation, length_of_way, slip_until_open};
 
 /// Friction bound, and its derivatives by pressure, coefficient and strength.
 #[derive(Debug, Clone, Copy)]
-struct Bound {
-    value: f64,
-    by: [f64; 3],
+pub(super) struct Bound {
+    pub value: f64,
+    pub by: [f64; 3],
 }
 
 /// What a cell that slips dissipates, by its slip, its shear before and after, and its bounds before and after.
@@ -270,7 +270,7 @@ impl<'a> Energies<'a> {
 }
 
 /// Shares of the drift and of the offset in what counts as slip of a cell in contact.
-fn shares_of_slip([was, is]: [Zone; 2], has_paths: bool) -> [f64; 2] {
+pub(super) fn shares_of_slip([was, is]: [Zone; 2], has_paths: bool) -> [f64; 2] {
     let drift = f64::from(u8::from(is == Zone::Slip));
     let offset = match was {
         Zone::Open if has_paths => -drift,

@@ -6,6 +6,7 @@ use super::scene::Scene;
 use super::solved::{Solved, deep_by};
 use crate::fields::length;
 use crate::model::Zone;
+use crate::solver::ContactSet;
 
 /// How near a cell is to a change, relative to the largest pressure, bound or displacement of the contact.
 const NEAR: f64 = 1e-6;
@@ -21,35 +22,71 @@ pub struct NearEvents {
     pub contact: usize,
 }
 
-/// Cells of an increment within a millionth of opening, touching, slipping or coming to rest. `own`: influence of a cell on itself, normal and
-/// tangential [length/pressure].
-pub(super) fn near_events(
-    (scene, solved, increment): (&Scene<'_>, &Solved, usize),
+/// Where cells are that are about to change their state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum SideOfEvents {
+    /// In the state that they have.
+    Own,
+    /// In the other one.
+    Other,
+}
+
+/// Cells of an increment within a millionth of opening, touching, slipping or coming to rest, and what they would do then.
+pub(super) fn cells_near_events(
+    (scene, solved): (&Scene<'_>, &Solved),
     contact: &Contact<'_>,
     own: [f64; 2],
-) -> NearEvents {
+) -> Vec<(usize, Zone)> {
     let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
     let pressure = largest(&mut solved.tractions[0].iter().copied());
     let bound = largest(&mut contact.bounds.iter().copied());
-    let mut cells = 0;
-    for (number, cell) in solved.contact.cells().enumerate() {
-        let opens = solved.tractions[0][cell] < NEAR * pressure;
-        let shear = [solved.tractions[1][cell], solved.tractions[2][cell]];
+    let other = |(number, cell): (usize, usize)| {
+        if solved.tractions[0][cell] < NEAR * pressure {
+            return Some((cell, Zone::Open));
+        }
+        let shear = length([solved.tractions[1][cell], solved.tractions[2][cell]]);
         let here = contact.bounds[number];
-        let changes = match (solved.zone_of(cell), contact.cells[number].shear) {
-            _ if bound <= 0.0 => false,
-            (Zone::Stick, _) => length(shear) > 0.0 && here - length(shear) < NEAR * bound,
-            (_, Shear::Turns { compliance, .. }) => compliance * here < NEAR * own[1] * bound,
-            _ => false,
-        };
-        cells += usize::from(opens || changes);
-    }
-    let touches = |(cell, undeformed): &(usize, &f64)| {
-        let deep = deep_by(&solved.motions, scene.places[*cell]);
-        let gap = *undeformed + solved.displacements[0][*cell] - deep;
-        solved.zone_of(*cell) == Zone::Open && gap < NEAR * own[0] * pressure
+        match (solved.zone_of(cell), contact.cells[number].shear) {
+            _ if bound <= 0.0 => None,
+            (Zone::Stick, _) => (shear > 0.0 && here - shear < NEAR * bound).then_some((cell, Zone::Slip)),
+            (_, Shear::Turns { compliance, .. }) => {
+                (compliance * here < NEAR * own[1] * bound).then_some((cell, Zone::Stick))
+            }
+            _ => None,
+        }
     };
-    cells += scene.undeformed.iter().enumerate().filter(touches).count();
-    let copies = scene.plan.symmetry.copies();
-    NearEvents { increment, cells: copies * cells, contact: copies * solved.contact.len() }
+    let mut cells: Vec<(usize, Zone)> = solved.contact.cells().enumerate().filter_map(other).collect();
+    let touches = |(cell, undeformed): (usize, &f64)| {
+        let deep = deep_by(&solved.motions, scene.places[cell]);
+        let gap = *undeformed + solved.displacements[0][cell] - deep;
+        (solved.zone_of(cell) == Zone::Open && gap < NEAR * own[0] * pressure).then_some((cell, Zone::Slip))
+    };
+    cells.extend(solved.undeformed.iter().enumerate().filter_map(touches));
+    cells
+}
+
+impl NearEvents {
+    /// Of so many cells in an increment; `None` where there are none.
+    pub(super) fn of((scene, solved, increment): (&Scene<'_>, &Solved, usize), cells: usize) -> Option<Self> {
+        let copies = scene.plan.symmetry.copies();
+        let contact = copies * solved.contact.len();
+        (cells > 0).then_some(Self { increment, cells: copies * cells, contact })
+    }
+}
+
+/// The same increment with some cells in another state.
+pub(super) fn with_cells(solved: &Solved, others: &[(usize, Zone)]) -> Solved {
+    let mut other = solved.clone();
+    let [_, columns] = solved.shape();
+    for (cell, zone) in others {
+        other.zone[[cell / columns, cell % columns]] = *zone;
+    }
+    let cells = solved.zone.len();
+    let mut touches = vec![false; cells];
+    solved.contact.cells().for_each(|cell| touches[cell] = true);
+    for (cell, zone) in others {
+        touches[*cell] = *zone != Zone::Open;
+    }
+    other.contact = ContactSet::of(cells, |cell| touches[cell]);
+    other
 }

@@ -3,7 +3,8 @@
 use ndarray::Array2;
 
 use super::error::SensitivityError;
-use super::scene::{Scene, Snapshot, field};
+use super::scene::{Scene, field};
+use super::snapshot::Snapshot;
 use crate::model::Symmetry;
 use crate::plan::Plan;
 
@@ -53,8 +54,13 @@ impl FieldWeights {
         if let Some(value) = weights.iter().find(|value| !value.is_finite()) {
             return Err(refused(format!("a weight is {value}: must be finite")));
         }
+        Ok(Self { increment, ..Self::of(field, weights, plan) })
+    }
+
+    /// Those of a field by its place in [`FIELDS`], of all cells of the grid of a plan, in the last increment.
+    pub fn of(field: usize, weights: &Array2<f64>, plan: &Plan) -> Self {
         let odd = field.checked_sub(1).map_or([false; 2], |component| plan.symmetry.shear_is_odd(component));
-        Ok(Self { increment, field, weights: folded(weights, plan.symmetry, odd) })
+        Self { increment: None, field, weights: folded(weights, plan.symmetry, odd) }
     }
 
     /// Number of the increment in a history of so many.
@@ -69,7 +75,7 @@ impl FieldWeights {
 
     /// The sum in an increment.
     pub fn value(&self, step: &Snapshot) -> f64 {
-        let state = &step.state;
+        let state = step.state();
         let field = [&state.pressure, &state.shear[0], &state.shear[1]][self.field];
         self.weights.iter().zip(field).map(|(weight, value)| weight * value).sum()
     }

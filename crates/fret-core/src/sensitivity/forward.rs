@@ -9,12 +9,13 @@ use super::bodies::change_of_response;
 use super::change::Change;
 use super::contact::Drive;
 use super::error::SensitivityError;
-use super::events::{NearEvents, near_events};
+use super::events::{NearEvents, SideOfEvents, cells_near_events, with_cells};
 use super::increment::{ENOUGH, Increment};
 use super::operators::displacements;
 use super::parameter::Parameter;
 use super::replay::{Replay, zones};
-use super::scene::{Scene, Snapshot, field};
+use super::scene::{Scene, field};
+use super::snapshot::Snapshot;
 use super::solved::Solved;
 use super::work::Work;
 use crate::compliance::SpectralCompliance;
@@ -36,7 +37,11 @@ pub(super) fn response_by(
     scene: &Scene<'_>,
     parameter: &Parameter,
 ) -> Result<Option<SpectralCompliance>, SensitivityError> {
-    let change = parameter.of_body().map(|number| change_of_response(scene.plan, number));
+    // Over the region and what lies behind the mirrors.
+    let [rows, columns] = scene.plan.symmetry.whole_of(scene.region.shape);
+    let [most_rows, most_columns] = scene.plan.grid.cells();
+    let cells = [rows.min(most_rows), columns.min(most_columns)];
+    let change = parameter.of_body().map(|number| change_of_response(scene.plan, number, cells));
     let made = change.map(|change| scene.compliance(&change)).transpose();
     made.map_err(|error| SensitivityError::Operators(error.to_string()))
 }
@@ -66,11 +71,12 @@ pub(super) fn change_of_gap(parameter: &Parameter, scene: &Scene<'_>) -> Vec<f64
     in_region(change)
 }
 
-/// Goes through a history that was solved, and shows the changes by each number after every increment. Tells where most cells are about to change
+/// Goes through a history that was solved, and shows the changes by each number after every increment, on the side of the solution or on the other
+/// one. Tells where most cells are about to change
 /// their state.
 pub(super) fn forward(
     (scene, pair): (&Scene<'_>, &Arc<PairCompliance>),
-    parameters: &[Parameter],
+    (parameters, side): (&[Parameter], SideOfEvents),
     steps: &[Snapshot],
     mut visit: impl FnMut((&Snapshot, &Solved), &[&Change]) -> ControlFlow<()>,
 ) -> Result<(Option<NearEvents>, Work), SensitivityError> {
@@ -78,7 +84,7 @@ pub(super) fn forward(
     let mut courses = Vec::with_capacity(parameters.len());
     for parameter in parameters {
         let gap = change_of_gap(parameter, scene);
-        let untouched = Change { gap: gap.clone(), ..Change::none(scene.region.len()) };
+        let untouched = Change { gap: gap.clone(), ..scene.no_change() };
         let response = response_by(scene, parameter)?;
         courses.push(Course { parameter, before: untouched.clone(), former: untouched, gap, response });
     }
@@ -86,8 +92,8 @@ pub(super) fn forward(
     let mut past = [replay.start.clone(), replay.start.clone()];
     let mut most: Option<NearEvents> = None;
     for (number, step) in steps.iter().enumerate() {
-        let state = number.checked_sub(1).map(|last| &steps[last].state);
-        let next = replay.next((step, state), past.each_ref().map(Some), &mut operators);
+        let last = number.checked_sub(1).map(|last| &steps[last]);
+        let next = replay.next((step, last), past.each_ref().map(Some), (&mut operators, None));
         let stage = next.load.stage;
         let numbers: Vec<[f64; FREEDOMS]> = courses
             .iter()
@@ -98,14 +104,24 @@ pub(super) fn forward(
             })
             .collect();
         if let Some(solved) = next.solved {
-            let increment = Increment::new(scene, (&step.record, &next.load), &solved, past.each_ref());
-            let near = (!increment.contact.cells.is_empty()).then(|| {
-                let own = operators.self_influence();
-                near_events((scene, &solved, number), &increment.contact, [own.normal, own.tangential])
-            });
-            if let Some(near) = near.filter(|near| near.cells > most.map_or(0, |most| most.cells)) {
+            let step_and_load = (&step.record, &next.load);
+            let increment = Increment::new(scene, step_and_load, &solved, past.each_ref());
+            let own = operators.self_influence();
+            let near = if increment.contact.cells.is_empty() {
+                Vec::new()
+            } else {
+                cells_near_events((scene, &solved), &increment.contact, [own.normal, own.tangential])
+            };
+            if let Some(near) = NearEvents::of((scene, &solved, number), near.len())
+                && near.cells > most.map_or(0, |most| most.cells)
+            {
                 most = Some(near);
             }
+            let other = (side == SideOfEvents::Other && !near.is_empty()).then(|| with_cells(&solved, &near));
+            let increment = match &other {
+                Some(other) => Increment::new(scene, step_and_load, other, past.each_ref()),
+                None => increment,
+            };
             let mut equations = increment.equations(&mut operators)?;
             for (course, numbers) in courses.iter_mut().zip(&numbers) {
                 let drive = course.drive(scene, &solved, stage);
@@ -121,6 +137,7 @@ pub(super) fn forward(
             }
             drop(equations);
             drop(increment);
+            drop(other);
             let [before, former] = &mut past;
             *former = std::mem::replace(before, solved);
         } else {
@@ -139,7 +156,7 @@ pub(super) fn forward(
                 }
                 (course.before.start, course.before.held) = (after.start, after.held);
             }
-            past[0].zone = zones(scene, &step.state);
+            past[0].zone = zones(scene, &step.state());
         }
         let changes: Vec<&Change> = courses.iter().map(|course| &course.before).collect();
         if visit((step, &past[0]), &changes).is_break() {
@@ -159,6 +176,7 @@ impl Course<'_> {
         drive.gap.clone_from(&self.gap);
         drive.friction = self.parameter.change_of_friction(case, stage);
         drive.rig = self.parameter.change_of_rig(case);
+        drive.wear = self.parameter.change_of_wear();
         if let Some(change) = &mut self.response
             && solved.contact.len() > 0
         {

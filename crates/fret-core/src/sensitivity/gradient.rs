@@ -6,24 +6,25 @@ use std::sync::Arc;
 
 use ndarray::Array2;
 
-use super::backward::{self, Past, Target};
+use super::backward::{Found, Target, backward};
+use super::below::{Below, below};
 use super::error::SensitivityError;
-use super::events::NearEvents;
+use super::events::{NearEvents, SideOfEvents};
 use super::field_weights::FieldWeights;
 use super::forward::forward;
 use super::objective::{Column, Objective, Row, value_of};
 use super::parameter::Parameter;
-use super::refusals::{check, check_history, check_request};
-use super::scene::{Scene, Snapshot};
+use super::past::{Past, bytes_per_cell, length_of_segments};
+use super::refusals::{check, check_history, check_request, check_wear};
+use super::scene::Scene;
+use super::snapshot::Snapshot;
 use super::work::Work;
+use crate::fields::add_scaled;
 use crate::history::{CycleRecord, KeptFields, StepRecord};
 use crate::machine::memory;
 use crate::model::MirroredState;
 use crate::plan::Plan;
-use crate::run::{Iteration, Observer, PairCompliance, RunError, Simulation};
-
-/// Bytes a cell of a state that is kept: five fields and the zone.
-const STATE: usize = 41;
+use crate::run::{Iteration, Observer, PairCompliance, Simulation};
 
 /// Which way derivatives are carried through a history.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,6 +56,9 @@ pub struct Gradient {
     pub value: f64,
     /// Its derivatives, in the order of the parameters.
     pub by: Vec<f64>,
+    /// The same with all cells that are about to change their state in the other one, up to the last increment that is asked for: on the other side.
+    /// `None`: nowhere any.
+    pub on_the_other_side: Option<Vec<f64>>,
 }
 
 /// The results with their derivatives.
@@ -161,21 +165,28 @@ fn derivatives(
 ) -> Result<Sensitivities, SensitivityError> {
     let names = sums.iter().flat_map(|sum| &sum.parts).map(|(name, _)| name.as_str());
     let parameters = asked(plan, (names, sums.iter().any(|sum| !sum.fields.is_empty())), by)?;
-    let bytes = (plan.grid.len() / plan.symmetry.copies())
-        .saturating_mul(STATE)
-        .saturating_mul(plan.case.increments());
-    memory::check(bytes).map_err(|error| RunError::OutOfMemory { increment: 0, error })?;
     let mut run = Snapshots { steps: Vec::new(), cycles: Vec::new(), observer };
     let pair = Arc::new(PairCompliance::of(plan));
     Simulation::new(plan).with_compliance(Some(Arc::clone(&pair))).run(&mut run)?;
-    let Snapshots { steps, cycles, observer } = run;
+    let Snapshots { mut steps, cycles, observer } = run;
+    end_blocks(&mut steps, &cycles);
+    check_wear(plan, &cycles)?;
     if let Some(step) = steps.iter().find(|step| step.record.parts > 1) {
         return Err(SensitivityError::Parts { increment: step.record.increment, parts: step.record.parts });
     }
     check_history(plan, steps.iter().map(|step| step.record.contact_cells))?;
     let scene = Scene::new(plan, &steps);
-    let targets =
-        sums.iter().map(|sum| sum.target(&scene, &steps, &cycles)).collect::<Result<Vec<_>, _>>()?;
+    let mut numbers = Vec::new();
+    for (name, _) in sums.iter().flat_map(|sum| &sum.parts) {
+        if let Some(number) = Objective::new(name)?.below(name, (steps.len(), &cycles))? {
+            numbers.push(((*name).clone(), number));
+        }
+    }
+    let mut below = below(&scene, &steps, &numbers, &parameters)?.into_iter();
+    let targets = sums
+        .iter()
+        .map(|sum| sum.target((&scene, parameters.len()), (&steps, &cycles), &mut below))
+        .collect::<Result<Vec<_>, _>>()?;
     let tolerance = plan.case.tolerance;
     let mut tell = |step: &Snapshot| {
         let StepRecord { increment, stage, .. } = step.record;
@@ -183,56 +194,94 @@ fn derivatives(
     };
     // What comes after the last increment that is asked for changes nothing of it, whichever way.
     let asked = targets.iter().flat_map(|target| &target.columns).map(|(increment, ..)| increment + 1).max();
+    let packed = steps.iter().map(Snapshot::bytes).sum::<usize>();
     let steps = &steps[..asked.unwrap_or(0)];
-    let mut gradients: Vec<Gradient> = targets
-        .iter()
-        .map(|target| Gradient {
-            of: target.of.clone(),
-            value: target.value,
-            by: vec![0.0; parameters.len()],
-        })
-        .collect();
     let cheaper = if targets.len() < parameters.len() { Direction::Backward } else { Direction::Forward };
-    let bytes = scene.region.len().saturating_mul(backward::BYTES).saturating_mul(steps.len());
-    if direction.unwrap_or(cheaper) == Direction::Backward
-        && (direction.is_some() || memory::check(bytes).is_ok())
-        && let Some(past) = Past::of(&scene, &pair, steps)?
-    {
-        let (found, near_events, work) =
-            backward::backward(&scene, (past, steps), &parameters, &targets, &mut tell)?;
-        for (gradient, by) in gradients.iter_mut().zip(found) {
-            gradient.by = by;
-        }
-        let direction = Direction::Backward;
-        return Ok(Sensitivities { parameters, gradients, near_events, direction, work });
+    let backwards = direction.unwrap_or(cheaper) == Direction::Backward;
+    let length = length_of_segments(steps.len(), scene.region.len(), plan.memory_bytes);
+    let bytes = bytes_per_cell(steps.len(), length).saturating_mul(scene.region.len());
+    let mut past = None;
+    let mut operators = scene.operators(&pair)?;
+    if backwards && (direction.is_some() || memory::check(bytes).is_ok()) {
+        past = Past::of(&scene, steps, &mut operators, length);
     }
-    let (near_events, work) = forward((&scene, &pair), &parameters, steps, |(step, solved), changes| {
-        for (gradient, target) in gradients.iter_mut().zip(&targets) {
-            let here = target.columns.iter().filter(|(increment, ..)| *increment == step.record.increment);
-            for (_, column, weight) in here {
-                let row = Row::new(column, solved);
-                for ((by, change), parameter) in gradient.by.iter_mut().zip(changes).zip(&parameters) {
-                    let [friction, _] = parameter.change_of_friction(&plan.case, step.record.stage);
-                    *by += weight * row.change(change, friction);
+    let direction = if past.is_some() { Direction::Backward } else { Direction::Forward };
+    let mut pass = |side: SideOfEvents| match &mut past {
+        Some(past) => backward(&scene, (past, &mut operators, steps), side, &parameters, &targets, &mut tell),
+        None => forwards((&scene, &pair), (&parameters, side), &targets, steps, &mut tell),
+    };
+    let (found, near_events, mut work) = pass(SideOfEvents::Own)?;
+    let other = near_events.map(|_| pass(SideOfEvents::Other)).transpose()?;
+    let mut others = other.map(|(other, ..)| other.into_iter());
+    let gradients = targets.iter().zip(found).map(|(target, by)| Gradient {
+        of: target.of.clone(),
+        value: target.value,
+        by: target.with_aside(by),
+        on_the_other_side: others.as_mut().and_then(Iterator::next).map(|by| target.with_aside(by)),
+    });
+    let gradients = gradients.collect();
+    work.kept_bytes = packed + if direction == Direction::Backward { bytes } else { 0 };
+    Ok(Sensitivities { parameters, gradients, near_events, direction, work })
+}
+
+/// Tells the increments with which a cycle, or a stage without cycles, ends.
+pub(super) fn end_blocks(steps: &mut [Snapshot], cycles: &[CycleRecord]) {
+    for number in 0..steps.len() {
+        let stage = steps[number].record.stage;
+        let ends_stage = steps.get(number + 1).is_none_or(|next| next.record.stage != stage);
+        steps[number].ends_block = ends_stage || cycles.iter().any(|cycle| cycle.last_increment == number);
+    }
+}
+
+/// Derivatives of the targets by all numbers, forward.
+fn forwards(
+    (scene, pair): (&Scene<'_>, &Arc<PairCompliance>),
+    (parameters, side): (&[Parameter], SideOfEvents),
+    targets: &[Target],
+    steps: &[Snapshot],
+    tell: &mut impl FnMut(&Snapshot) -> ControlFlow<()>,
+) -> Result<Found, SensitivityError> {
+    let mut found = vec![vec![0.0; parameters.len()]; targets.len()];
+    let (near_events, work) =
+        forward((scene, pair), (parameters, side), steps, |(step, solved), changes| {
+            for (by, target) in found.iter_mut().zip(targets) {
+                let here =
+                    target.columns.iter().filter(|(increment, ..)| *increment == step.record.increment);
+                for (_, column, weight) in here {
+                    let row = Row::new(column, solved);
+                    for ((by, change), parameter) in by.iter_mut().zip(changes).zip(parameters) {
+                        let [friction, _] = parameter.change_of_friction(&scene.plan.case, step.record.stage);
+                        *by += weight * row.change(change, friction);
+                    }
                 }
             }
-        }
-        tell(step)
-    })?;
-    Ok(Sensitivities { parameters, gradients, near_events, direction: Direction::Forward, work })
+            tell(step)
+        })?;
+    Ok((found, near_events, work))
 }
 
 impl Sum<'_> {
-    /// Its value, and the columns of increments that it is made of.
+    /// Its value, and the columns of increments that it is made of. `below`: the numbers of the stress among its parts, in their order.
     fn target(
         &self,
-        scene: &Scene<'_>,
-        steps: &[Snapshot],
-        cycles: &[CycleRecord],
+        (scene, parameters): (&Scene<'_>, usize),
+        (steps, cycles): (&[Snapshot], &[CycleRecord]),
+        below: &mut impl Iterator<Item = Below>,
     ) -> Result<Target, SensitivityError> {
-        let mut found = Target { of: self.of.clone(), value: 0.0, columns: Vec::new() };
+        let (of, aside) = (self.of.clone(), vec![0.0; parameters]);
+        let mut found = Target { of, value: 0.0, columns: Vec::new(), aside };
         for (name, weight) in &self.parts {
             let objective = Objective::new(name)?;
+            if objective.is_below()
+                && let Some(below) = below.next()
+            {
+                found.value += weight * below.value;
+                found
+                    .columns
+                    .extend(below.columns.into_iter().map(|(of, column, by)| (of, column, weight * by)));
+                add_scaled(&mut found.aside, *weight, &below.by);
+                continue;
+            }
             let column = objective.column();
             for (increment, sign) in objective.needs(name, (steps.len(), cycles))? {
                 let Some(increment) = increment else { continue };
@@ -267,7 +316,8 @@ impl Observer for Snapshots<'_> {
         state: MirroredState<'_>,
         kept: Option<&KeptFields>,
     ) -> ControlFlow<()> {
-        self.steps.push(Snapshot { record: record.clone(), state: state.part.clone() });
+        let snapshot = Snapshot::of(record, state.part, self.steps.last());
+        self.steps.push(snapshot);
         self.observer.solved(record, state, kept)
     }
 

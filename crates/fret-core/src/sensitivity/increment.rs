@@ -79,7 +79,7 @@ impl<'a> Increment<'a> {
         [before, former]: [&Change; 2],
         (drive, numbers): (&Drive, &[f64; FREEDOMS]),
     ) -> Result<Change, f64> {
-        let mut next = Change::none(self.scene.region.len());
+        let mut next = self.scene.no_change();
         self.load.forward(before, numbers, &mut next);
         let paths = self.rule.forward([before, former, &next], self.contact.set);
         let asked = self.contact.asked(before, &next, (&paths, drive));

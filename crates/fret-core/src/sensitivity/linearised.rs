@@ -15,7 +15,7 @@ use super::error::SensitivityError;
 use super::fields::{Fields, zeros};
 use super::krylov::{LinearProblem, Trust};
 use super::operators::Operators;
-use crate::fields::add_scaled;
+use crate::fields::{add_scaled, solved};
 use crate::solver::{ContactSet, SlipWeights};
 
 /// The linearised equations of one increment.
@@ -300,37 +300,11 @@ impl LinearProblem for Linearised<'_> {
         let mut through = [0.0; MOTIONS];
         self.prescribed_rows(resultants, &[0.0; MOTIONS], &mut through);
         let right = std::array::from_fn(|motion| equations[3 * n + motion] - through[motion]);
-        let amounts = solved(self.schur, right);
+        let amounts = solved(self.schur, right, 0.0);
         for (amount, inverse) in amounts.iter().zip(&self.bordered).filter(|(_, inverse)| !inverse.is_empty())
         {
             add_scaled(&mut unknowns[..3 * n], -amount, &inverse[..3 * n]);
         }
         unknowns[3 * n..].copy_from_slice(&amounts);
     }
-}
-
-/// Solves a small system by elimination with exchange of rows; an unknown that nothing tells is zero.
-pub(super) fn solved(mut a: [[f64; MOTIONS]; MOTIONS], mut b: [f64; MOTIONS]) -> [f64; MOTIONS] {
-    for m in 0..MOTIONS {
-        let pivot =
-            (m..MOTIONS).fold(m, |best, row| if a[row][m].abs() > a[best][m].abs() { row } else { best });
-        a.swap(m, pivot);
-        b.swap(m, pivot);
-        if a[m][m] == 0.0 {
-            continue;
-        }
-        for row in m + 1..MOTIONS {
-            let factor = a[row][m] / a[m][m];
-            for column in m..MOTIONS {
-                a[row][column] -= factor * a[m][column];
-            }
-            b[row] -= factor * b[m];
-        }
-    }
-    let mut x = [0.0; MOTIONS];
-    for m in (0..MOTIONS).rev() {
-        let rest: f64 = (m + 1..MOTIONS).map(|column| a[m][column] * x[column]).sum();
-        x[m] = if a[m][m] == 0.0 { 0.0 } else { (b[m] - rest) / a[m][m] };
-    }
-    x
 }

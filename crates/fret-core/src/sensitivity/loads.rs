@@ -48,6 +48,7 @@ fn of_kinds(
 }
 
 /// What a history has prescribed so far, of the whole contact.
+#[derive(Clone)]
 pub(super) struct Prescribed<'a> {
     scene: &'a Scene<'a>,
     held: LoadStep,

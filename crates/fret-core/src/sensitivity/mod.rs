@@ -6,6 +6,8 @@
 
 mod after;
 mod backward;
+mod below;
+mod beneath;
 mod bodies;
 mod cell;
 mod change;
@@ -26,14 +28,17 @@ mod loads;
 mod objective;
 mod operators;
 mod parameter;
+mod past;
 mod refusals;
 mod replay;
 mod rule;
 mod scene;
+mod snapshot;
 mod solved;
 #[cfg(test)]
 mod tests;
 mod transposed;
+mod wear;
 mod work;
 
 pub use error::SensitivityError;

@@ -1,14 +1,20 @@
 //! Of what derivatives are taken: columns of an increment, and of a cycle.
 
+use super::beneath::{Number, constants_for_fatigue, side_of};
 use super::change::Change;
 use super::error::SensitivityError;
 use super::field_weights::RegionWeights;
 use super::solved::Solved;
-use crate::fields::{add_scaled, dot, length};
+use crate::fields::{add_scaled, dot, length, sum};
 use crate::history::{CycleRecord, STEP_COLUMNS, StepRecord, Value};
+use crate::model::Body;
+use crate::plan::Plan;
+use crate::subsurface::Measure;
+use crate::subsurface::fatigue::Parameter;
+use crate::subsurface::severity::constants_of;
 
 /// Columns of an increment that have derivatives.
-pub const COLUMNS: [&str; 22] = [
+pub const COLUMNS: [&str; 24] = [
     "normal_force",
     "approach",
     "actuator_approach",
@@ -31,6 +37,8 @@ pub const COLUMNS: [&str; 22] = [
     "external_work",
     "unresolved_energy",
     "friction_coefficient",
+    "worn_volume",
+    "max_worn_depth",
 ];
 
 /// Columns that have none, and why.
@@ -45,6 +53,10 @@ pub(super) enum Objective {
     Increment { increment: Option<usize>, column: &'static str },
     /// The energy that friction dissipates in a cycle.
     CycleEnergy { cycle: usize },
+    /// The largest value of a measure of the stress below the surface, in an increment; `None`: in the last one.
+    Stress { increment: Option<usize>, measure: Measure },
+    /// The largest value of a fatigue parameter below the surface, over a cycle; `None`: over the last one.
+    Fatigue { cycle: Option<usize>, parameter: Parameter },
 }
 
 impl Objective {
@@ -57,21 +69,42 @@ impl Objective {
             }
             let known = COLUMNS.into_iter().find(|known| *known == column);
             known.ok_or_else(|| {
-                refused(format!("no derivative is taken of it; of these one is: {}", COLUMNS.join(", ")))
+                refused(format!("{}, stress.von_mises, fatigue.crossland, ...", none_of(COLUMNS)))
+            })
+        };
+        let stress = |increment: Option<usize>, of: &str| {
+            let of = of.strip_prefix("stress.")?;
+            Some(match Measure::ALL.into_iter().find(|known| known.name() == of) {
+                Some(measure) => Ok(Self::Stress { increment, measure }),
+                None => Err(refused(none_of(Measure::ALL.map(Measure::name)))),
+            })
+        };
+        let fatigue = |cycle: Option<usize>, of: &str| {
+            let of = of.strip_prefix("fatigue.")?;
+            Some(match Parameter::ALL.into_iter().find(|known| known.name() == of) {
+                Some(parameter) => Ok(Self::Fatigue { cycle, parameter }),
+                None => Err(refused(none_of(Parameter::ALL.map(Parameter::name)))),
             })
         };
         let Some((list, rest)) = name.split_once('[') else {
-            return Ok(Self::Increment { increment: None, column: column(name)? });
+            return match stress(None, name).or_else(|| fatigue(None, name)) {
+                Some(below) => below,
+                None => Ok(Self::Increment { increment: None, column: column(name)? }),
+            };
         };
         let form = || refused("written as increments[7].shift_x or cycles[0].dissipated_energy".to_owned());
         let (index, last) = rest.split_once("].").ok_or_else(form)?;
         let index = index.parse().map_err(|_| form())?;
         match list {
-            "increments" => Ok(Self::Increment { increment: Some(index), column: column(last)? }),
+            "increments" => match stress(Some(index), last) {
+                Some(below) => below,
+                None => Ok(Self::Increment { increment: Some(index), column: column(last)? }),
+            },
             "cycles" if last == "dissipated_energy" => Ok(Self::CycleEnergy { cycle: index }),
-            "cycles" => Err(refused(
-                "of a cycle there is dissipated_energy; take others of its increments".to_owned(),
-            )),
+            "cycles" => fatigue(Some(index), last).unwrap_or_else(|| {
+                let of = "of a cycle there are dissipated_energy and fatigue.crossland, ...; take others of its increments";
+                Err(refused(of.to_owned()))
+            }),
             _ => Err(form()),
         }
     }
@@ -94,16 +127,78 @@ impl Objective {
                     of.ok_or_else(|| refused(format!("the history has {} cycles, from 0", cycles.len())))?;
                 Ok(vec![(Some(of.last_increment), 1.0), (of.first_increment.checked_sub(1), -1.0)])
             }
+            Self::Stress { .. } | Self::Fatigue { .. } => Ok(Vec::new()),
         }
     }
 
-    /// The column that it is made of.
+    /// The number of the stress below the surface that it is, if it is one.
+    pub fn below(
+        &self,
+        name: &str,
+        (steps, cycles): (usize, &[CycleRecord]),
+    ) -> Result<Option<Number>, SensitivityError> {
+        let refused = |reason: String| SensitivityError::Objective { name: name.to_owned(), reason };
+        match *self {
+            Self::Increment { .. } | Self::CycleEnergy { .. } => Ok(None),
+            Self::Stress { increment, measure } => match increment.unwrap_or(steps.saturating_sub(1)) {
+                increment if increment < steps => Ok(Some(Number::Measure { measure, increment })),
+                _ => Err(refused(format!("the history has {steps} increments, from 0"))),
+            },
+            Self::Fatigue { cycle, parameter } => {
+                let of = cycle.map_or(cycles.last(), |cycle| cycles.get(cycle));
+                let of =
+                    of.ok_or_else(|| refused(format!("the history has {} cycles, from 0", cycles.len())))?;
+                // With the state that the cycle starts from, where there is one.
+                let increments = of.first_increment.saturating_sub(1)..=of.last_increment;
+                Ok(Some(Number::Fatigue { parameter, increments }))
+            }
+        }
+    }
+
+    /// Whether it is a number of the stress below the surface.
+    pub fn is_below(&self) -> bool {
+        matches!(self, Self::Stress { .. } | Self::Fatigue { .. })
+    }
+
+    /// Why the bodies of a plan have no such number of the stress below the surface, if they have none.
+    pub fn missing_below(&self, plan: &Plan) -> Option<String> {
+        let side = side_of(plan);
+        let (name, body) = (side.name(), side.of(&plan.case.bodies));
+        let Body::Elastic(half_space) = body else {
+            return Some(format!("the {name} body is rigid: there is no stress in it"));
+        };
+        match self {
+            Self::Stress { measure, .. } => {
+                let lacks = measure.at_interfaces_only() && half_space.coatings().is_empty();
+                lacks.then(|| format!("the {name} body has no coating, and so no interface"))
+            }
+            Self::Fatigue { parameter, .. } => {
+                let constants = constants_for_fatigue(plan, side);
+                let is_given =
+                    |layer: usize| parameter.is_given(&constants_of(half_space, &constants, layer));
+                let lacks = !(0..=half_space.coatings().len()).any(is_given);
+                lacks.then(|| {
+                    format!("the {name} body lacks the constants for it, yield strength or fatigue limits")
+                })
+            }
+            Self::Increment { .. } | Self::CycleEnergy { .. } => None,
+        }
+    }
+
+    /// The column that it is made of; of a number of the stress what that is called.
     pub fn column(&self) -> &'static str {
         match self {
             Self::Increment { column, .. } => column,
             Self::CycleEnergy { .. } => "dissipated_energy",
+            Self::Stress { measure, .. } => measure.name(),
+            Self::Fatigue { parameter, .. } => parameter.name(),
         }
     }
+}
+
+/// That a name is none of those known.
+fn none_of<const N: usize>(known: [&str; N]) -> String {
+    format!("no derivative is taken of it; of these one is: {}", known.join(", "))
 }
 
 /// Whether a name is one of a result that has derivatives; whether the history has it is for the run to say.
@@ -147,7 +242,11 @@ pub(super) enum Row<'a> {
     Field(usize, &'a [f64]),
     /// The friction coefficient in force.
     Friction,
-    /// Nothing: nothing wears in the histories whose derivatives are taken.
+    /// The worn depth of a cell.
+    Worn(usize),
+    /// The worn volume, with the area that a cell stands for.
+    WornVolume(f64),
+    /// Nothing.
     Nothing,
 }
 
@@ -190,6 +289,10 @@ impl<'a> Row<'a> {
             "external_work" => Self::Energy(2),
             "unresolved_energy" => Self::Energy(3),
             "friction_coefficient" => Self::Friction,
+            "worn_volume" => Self::WornVolume(solved.area),
+            "max_worn_depth" => {
+                largest(solved.worn.iter().copied().enumerate()).map_or(Self::Nothing, Self::Worn)
+            }
             _ => Self::Nothing,
         }
     }
@@ -204,6 +307,8 @@ impl<'a> Row<'a> {
             Self::Field(0, weights) => dot(weights, &change.pressure),
             Self::Field(component, weights) => dot(weights, &change.shear[component - 1]),
             Self::Friction => friction,
+            Self::Worn(cell) => change.worn[cell],
+            Self::WornVolume(area) => area * sum(&change.worn),
             Self::Nothing => 0.0,
         }
     }
@@ -221,6 +326,8 @@ impl<'a> Row<'a> {
             Self::Field(0, weights) => add_scaled(&mut to.pressure, weight, weights),
             Self::Field(component, weights) => add_scaled(&mut to.shear[component - 1], weight, weights),
             Self::Friction => *friction += weight,
+            Self::Worn(cell) => to.worn[cell] += weight,
+            Self::WornVolume(area) => to.worn.iter_mut().for_each(|worn| *worn += weight * area),
             Self::Nothing => {}
         }
     }

@@ -40,6 +40,8 @@ enum What {
     Shape { index: usize, number: &'static str },
     /// A stiffness of the machine: normal, along x, along y, or along both.
     Rig { normal: bool, along: [bool; 2] },
+    /// The wear coefficient.
+    Wear,
     /// A constant of a body.
     Body(BodyNumber),
 }
@@ -73,6 +75,7 @@ impl Parameter {
                 coefficient(&case.friction).map(|value| (What::Friction { stage: None }, value))
             }
             [("friction", None), ("max_shear", None)] => strength(case),
+            [("wear", None), ("coefficient", None)] => wear(case),
             [("load", Some(stage)), ("friction", None)] => stage_friction(case, stage),
             [("load", Some(stage)), (key, axis)] => control(case, stage, (key, axis)),
             [("rig", None), (key, axis)] => rig(case, (key, axis)),
@@ -94,7 +97,8 @@ impl Parameter {
 
     /// All numbers of a case by which derivatives can be taken.
     pub fn all_of(case: &Case) -> Vec<Self> {
-        let mut paths = vec!["friction.coefficient".to_owned(), "friction.max_shear".to_owned()];
+        let mut paths: Vec<String> =
+            ["friction.coefficient", "friction.max_shear", "wear.coefficient"].map(str::to_owned).to_vec();
         for (number, stage) in case.stages.iter().enumerate() {
             paths.push(format!("load[{number}].friction"));
             for (row, way) in ways() {
@@ -188,6 +192,11 @@ impl Parameter {
         [of(normal, springs.normal), of(along[0], springs.tangential[0]), of(along[1], springs.tangential[1])]
     }
 
+    /// Derivative of the wear coefficient.
+    pub(super) fn change_of_wear(&self) -> f64 {
+        f64::from(u8::from(self.what == What::Wear))
+    }
+
     /// The constant of a body that it is.
     pub(super) fn of_body(&self) -> Option<BodyNumber> {
         if let What::Body(number) = self.what { Some(number) } else { None }
@@ -235,6 +244,11 @@ fn coefficient(law: &CoulombFriction) -> Result<f64, String> {
 fn strength(case: &Case) -> Found {
     let strength = case.friction.max_shear().ok_or("the case has none")?;
     Ok((What::Strength, strength.uniform().ok_or(ONE_NUMBER)?))
+}
+
+fn wear(case: &Case) -> Found {
+    let coefficient = case.wear.as_ref().and_then(|wear| wear.coefficient);
+    Ok((What::Wear, coefficient.ok_or("the case has none")?))
 }
 
 fn stage_friction(case: &Case, stage: usize) -> Found {

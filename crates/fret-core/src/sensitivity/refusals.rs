@@ -5,7 +5,8 @@ use ndarray::s;
 use super::error::SensitivityError;
 use super::objective::Objective;
 use super::parameter::Parameter;
-use crate::case::{Stage, StageControl};
+use crate::case::{Case, Stage, StageControl};
+use crate::history::CycleRecord;
 use crate::kernel::uniform_response;
 use crate::model::{CoulombFriction, Integration};
 use crate::plan::{Coupling, Plan, Simplification};
@@ -19,7 +20,11 @@ pub(super) fn check(plan: &Plan) -> Result<(), SensitivityError> {
     let moves = |stage: &Stage| stage.normal.as_ref().is_some_and(StageControl::is_motion);
     let by_mean_gap = repeats && case.stages.iter().any(moves);
     let refusals = [
-        (case.wear.is_some(), "[wear]", without),
+        (
+            wears_otherwise(case),
+            "[wear] beyond one coefficient",
+            "one wear.coefficient, and none of thinning_tolerance, debris, rim",
+        ),
         (case.hardness.is_some(), "hardness", without),
         (case.friction_evolution.is_some(), "friction.evolution", without),
         (plan.moves, "kinematics.displacement = \"finite\"", without),
@@ -44,6 +49,24 @@ pub(super) fn check(plan: &Plan) -> Result<(), SensitivityError> {
     }
 }
 
+/// Whether a case wears by more than one coefficient of both bodies together.
+fn wears_otherwise(case: &Case) -> bool {
+    case.wear.as_ref().is_some_and(|wear| {
+        let plain = wear.layers.is_none() && wear.thinning_tolerance.is_none() && wear.own.is_none();
+        !(plain && wear.debris.is_none() && wear.rim.is_none() && wear.coefficient.is_some())
+    })
+}
+
+/// Whether the cycles of a history that wears stand for themselves alone.
+pub(super) fn check_wear(plan: &Plan, cycles: &[CycleRecord]) -> Result<(), SensitivityError> {
+    let jumps = cycles.iter().any(|cycle| cycle.stands_for > 1);
+    if plan.case.wear.is_some() && jumps {
+        let (key, advice) = ("cycle jumps".to_owned(), "every = 1 in [wear]");
+        return Err(SensitivityError::NotCovered { key, advice });
+    }
+    Ok(())
+}
+
 /// Whether the numbers and the results that are asked for have derivatives with the simplifications of a plan.
 pub(super) fn check_request(
     plan: &Plan,
@@ -53,6 +76,11 @@ pub(super) fn check_request(
     let refused = |parameter: &Parameter, reason: &str| {
         Err(SensitivityError::Parameter { path: parameter.path().to_owned(), reason: reason.to_owned() })
     };
+    let below = || objectives.iter().filter(|objective| objective.is_below());
+    if let Some((objective, reason)) = below().find_map(|of| Some((of, of.missing_below(plan)?))) {
+        return Err(SensitivityError::Objective { name: objective.column().to_owned(), reason });
+    }
+    let fields = fields || below().next().is_some();
     for parameter in parameters {
         if parameter.is_a_load() && parameter.value() == 0.0 && (plan.symmetry.any() || plan.along.is_some())
         {
@@ -75,8 +103,8 @@ pub(super) fn check_request(
             if fields {
                 return refused(
                     parameter,
-                    "pressure and shear of these bodies do not act on each other, but with another value they would: fields have no derivative \
-                     here: give one of the bodies a slightly different constant",
+                    "pressure and shear of these bodies do not act on each other, but with another value they would: fields, and stresses below the surface, \
+                     have no derivative here: give one of the bodies a slightly different constant",
                 );
             }
             if let Some(odd) = objectives.iter().find(|objective| ODD.contains(&objective.column())) {
@@ -89,6 +117,19 @@ pub(super) fn check_request(
                     ),
                 );
             }
+        }
+    }
+    let of_wear = ["worn_volume", "max_worn_depth"];
+    let by_gap = ["unresolved_energy"];
+    let (wears, refused) = (plan.case.wear.is_some(), |name: &str, reason: &str| {
+        Err(SensitivityError::Objective { name: name.to_owned(), reason: reason.to_owned() })
+    });
+    for column in objectives.iter().map(Objective::column) {
+        if of_wear.contains(&column) && !wears {
+            return refused(column, "nothing wears in this case");
+        }
+        if by_gap.contains(&column) && wears {
+            return refused(column, "of surfaces that wear no derivative is taken of it");
         }
     }
     let of_friction = |objective: &&Objective| objective.column() == "friction_coefficient";
@@ -137,6 +178,12 @@ pub(super) fn check_history(
         return Err(SensitivityError::NotCovered {
             key: "bodies that are apart before they touch".to_owned(),
             advice: "integration = \"end_point\" in [solver], or a first stage that presses them",
+        });
+    }
+    if is_apart && case.wear.is_some() {
+        return Err(SensitivityError::NotCovered {
+            key: "bodies that are apart, and wear".to_owned(),
+            advice: "keep them pressed",
         });
     }
     if is_apart && case.stages.iter().any(Stage::tilts) {

@@ -2,11 +2,12 @@
 
 use ndarray::Array2;
 
-use super::fields::zeros;
+use super::fields::{Fields, zeros};
 use super::loads::{Load, Prescribed};
 use super::operators::Operators;
 use super::rule::{Cells, Rule};
-use super::scene::{Scene, Snapshot};
+use super::scene::Scene;
+use super::snapshot::Snapshot;
 use super::solved::{Solved, at, deep_by, moved_by};
 use crate::model::{ContactState, Zone};
 use crate::solver::{ContactSet, rate_since_touch};
@@ -14,7 +15,7 @@ use crate::solver::{ContactSet, rate_since_touch};
 /// Goes through a history again, increment by increment.
 pub(super) struct Replay<'a> {
     scene: &'a Scene<'a>,
-    prescribed: Prescribed<'a>,
+    pub prescribed: Prescribed<'a>,
     untouched: ContactState,
     pub start: Solved,
 }
@@ -31,35 +32,39 @@ impl<'a> Replay<'a> {
         Self { scene, prescribed: Prescribed::new(scene), untouched, start: Solved::untouched(scene) }
     }
 
-    /// The next increment, after `before`, which came from `former`, both `None` where there is none but the start; `state`: the one before.
+    /// The next increment, after `before`, which came from `former`, both `None` where there is none but the start, and the `last` one as the run left
+    /// it. Its displacements are found, where they are not known.
     pub fn next(
         &mut self,
-        (snapshot, state): (&Snapshot, Option<&ContactState>),
+        (snapshot, last): (&Snapshot, Option<&Snapshot>),
         past: [Option<&Solved>; 2],
-        operators: &mut Operators,
+        operators: (&mut Operators, Option<&Fields>),
     ) -> Next {
         let scene = self.scene;
         let [before, former] = past.map(|solved| solved.unwrap_or(&self.start));
-        let state = state.unwrap_or(&self.untouched);
+        let state = last.map(Snapshot::state);
+        let state = state.as_ref().unwrap_or(&self.untouched);
         let reached = before.reached(scene);
         let load = self.prescribed.next(snapshot.record.stage, (state, &reached), before.load.as_ref());
-        let solved =
-            (!before.stands(&load)).then(|| solved(scene, snapshot, (&load, [before, former]), operators));
+        let solved = (!before.stands(&load))
+            .then(|| solved((scene, last), snapshot, (&load, [before, former]), operators));
         Next { load, solved }
     }
 }
 
 /// An increment in the region, from what the run left of it.
 fn solved(
-    scene: &Scene<'_>,
+    (scene, last): (&Scene<'_>, Option<&Snapshot>),
     snapshot: &Snapshot,
     (load, [before, former]): (&Load, [&Solved; 2]),
-    operators: &mut Operators,
+    (operators, found): (&mut Operators, Option<&Fields>),
 ) -> Solved {
-    let Snapshot { record, state } = snapshot;
+    let (record, state) = (&snapshot.record, &snapshot.state());
     let region = scene.region;
     let tractions = [&state.pressure, &state.shear[0], &state.shear[1]].map(|field| region.gather(field));
-    let moved = if tractions[0].iter().any(|p| *p > 0.0) {
+    let moved = if let Some(found) = found {
+        found.clone()
+    } else if tractions[0].iter().any(|p| *p > 0.0) {
         operators.displacements(&tractions)
     } else {
         zeros(region.len())
@@ -68,8 +73,18 @@ fn solved(
     let contact = ContactSet::loaded(&tractions[0]);
     let end_point = record.work.end_point_increments > 0;
     let rule = Rule::new(scene, (load, end_point), [before, former], (&contact, &[]), Cells::Entered);
+    let mut undeformed = scene.undeformed.clone();
+    if let Some(depth) = last.and_then(|last| last.worn.as_ref()) {
+        undeformed.iter_mut().zip(region.gather(depth)).for_each(|(gap, worn)| *gap += worn);
+    }
+    let worn = snapshot.worn.as_ref().map_or_else(Vec::new, |depth| region.gather(depth));
     let mut solved = Solved {
-        gap: scene.undeformed.clone(),
+        gap: undeformed.clone(),
+        undeformed,
+        worn,
+        area: scene.area(),
+        ends_block: snapshot.ends_block,
+        opens: snapshot.has_worn(last),
         zone: zones(scene, state),
         motions,
         contact,

@@ -81,7 +81,8 @@ pub(super) enum Cells {
 fn pace(scene: &Scene<'_>, load: &Load, before: &Solved, end_point: bool) -> Option<(Pace, [ByLoads; 2])> {
     const BOTH: usize = 2 * FREEDOMS;
     let of_second_order = scene.is_frictional() && scene.plan.case.integration == Integration::SecondOrder;
-    let (first, last) = (before.from.as_ref()?, load.from.as_ref()?);
+    // Of surfaces that have worn since, no increment before is known.
+    let (first, last) = (before.from.as_ref().filter(|_| !before.opens)?, load.from.as_ref()?);
     let friction_changes = load.begins && scene.plan.case.friction_changes_at(load.stage);
     if !of_second_order || end_point || friction_changes {
         return None;

@@ -1,16 +1,15 @@
-//! What stays the same along a history whose derivatives are taken: grid, region, gap, symmetry, machine; and its increments as they were
-//! solved.
+//! What stays the same along a history whose derivatives are taken: grid, region, gap, symmetry, machine.
 
 use std::sync::Arc;
 
 use ndarray::Array2;
 
 use super::cell::MOTIONS;
-use super::change::Reached;
+use super::change::{Change, Reached};
 use super::error::SensitivityError;
 use super::operators::{Made, Operators};
+use super::snapshot::Snapshot;
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceResponse};
-use crate::history::StepRecord;
 use crate::model::{ContactState, Rig, SurfaceGrid};
 use crate::plan::{Coupling, Plan};
 use crate::run::PairCompliance;
@@ -22,12 +21,6 @@ const MARGIN: usize = 3;
 
 /// The motion of each degree of freedom, in the order of the controls.
 pub(super) const MOTION_OF: [usize; 6] = [0, 3, 4, 5, 1, 2];
-
-/// An increment as the run left it: its record, and the state in front of the mirrors.
-pub(super) struct Snapshot {
-    pub record: StepRecord,
-    pub state: ContactState,
-}
 
 /// The fixed part of a history.
 pub(super) struct Scene<'a> {
@@ -78,6 +71,11 @@ impl<'a> Scene<'a> {
     /// Whether shear is unknown.
     pub fn is_frictional(&self) -> bool {
         self.plan.coupling != Coupling::Frictionless
+    }
+
+    /// No change.
+    pub fn no_change(&self) -> Change {
+        Change::none(self.region.len()).of_wear(self.plan.case.wear.is_some())
     }
 
     /// How many cells of the whole contact a cell stands for, times the area of one [length^2].
@@ -189,6 +187,8 @@ fn region_of(plan: &Plan, cells: [usize; 2], snapshots: &[Snapshot]) -> Region {
     if plan.case.periodic.is_both() {
         return Region::whole(cells);
     }
-    let touched = |i: usize, j: usize| snapshots.iter().any(|step| step.state.pressure[[i, j]] > 0.0);
+    let mut pressed = Array2::from_elem(cells, false);
+    snapshots.iter().flat_map(Snapshot::pressed).for_each(|cell| pressed[cell] = true);
+    let touched = |i: usize, j: usize| pressed[[i, j]];
     Region::around(cells, plan.symmetry.axes(), MARGIN, good_length, touched)
 }

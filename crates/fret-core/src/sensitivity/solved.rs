@@ -35,6 +35,14 @@ pub(super) struct Solved {
     pub tractions: Fields,
     pub displacements: Fields,
     pub gap: Array2<f64>,
+    /// Gap before deformation in it [length].
+    pub undeformed: Array2<f64>,
+    /// Depth worn off after it, and the area that a cell stands for; nothing where nothing wears.
+    pub worn: Vec<f64>,
+    pub area: f64,
+    /// Whether a cycle or a stage ends with it, whose wear is taken off then, and whether that opens the gap.
+    pub ends_block: bool,
+    pub opens: bool,
     pub zone: Array2<Zone>,
     /// Rotations times the length [length].
     pub motions: [f64; MOTIONS],
@@ -60,6 +68,11 @@ impl Solved {
             tractions: zeros(cells),
             displacements: zeros(cells),
             gap: scene.undeformed.clone(),
+            undeformed: scene.undeformed.clone(),
+            worn: Vec::new(),
+            area: scene.area(),
+            ends_block: false,
+            opens: false,
             zone: Array2::from_elem(scene.region.shape, Zone::Open),
             motions: [0.0; MOTIONS],
             contact: ContactSet::of(cells, |_| false),
@@ -105,7 +118,7 @@ impl Solved {
 
     /// Whether a load is the one that it ended with.
     pub fn stands(&self, load: &Load) -> bool {
-        self.load.as_ref() == Some(&load.step)
+        self.load.as_ref() == Some(&load.step) && !self.opens
     }
 
     /// Change of the tangential displacement of the upper surface over the lower in a cell since another increment [length].

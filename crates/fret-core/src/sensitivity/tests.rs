@@ -15,7 +15,8 @@ use super::loads::Load;
 use super::operators::Operators;
 use super::replay::Replay;
 use super::rule::{Cells, PathChange, Rule};
-use super::scene::{Scene, Snapshot};
+use super::scene::Scene;
+use super::snapshot::Snapshot;
 use super::solved::{Solved, law_of};
 use super::transposed::Transposed;
 use crate::case::Case;
@@ -100,6 +101,8 @@ fn change(random: &mut Random, cells: usize) -> Change {
     let mut tangential = || [(); 2].map(|()| vector(random, cells));
     let [shear, slid, drift] = [tangential(), tangential(), tangential()];
     Change {
+        worn: Vec::new(),
+        collected: Vec::new(),
         pressure: vector(random, cells),
         shear,
         gap: vector(random, cells),
@@ -118,7 +121,7 @@ fn change(random: &mut Random, cells: usize) -> Change {
 
 fn drive(random: &mut Random, cells: usize) -> Drive {
     let (gap, response) = (vector(random, cells), fields(random, cells));
-    Drive { gap, friction: array(random), rig: array(random), response }
+    Drive { gap, friction: array(random), rig: array(random), wear: 0.0, response }
 }
 
 fn paths(random: &mut Random, cells: usize) -> PathChange {
@@ -177,8 +180,8 @@ fn each_increment(text: &str, mut show: impl FnMut(At<'_>, &mut Operators)) {
     let mut replay = Replay::new(&scene);
     let mut past = [replay.start.clone(), replay.start.clone()];
     for (number, snapshot) in steps.iter().enumerate() {
-        let state = number.checked_sub(1).map(|last| &steps[last].state);
-        let next = replay.next((snapshot, state), past.each_ref().map(Some), &mut operators);
+        let last = number.checked_sub(1).map(|last| &steps[last]);
+        let next = replay.next((snapshot, last), past.each_ref().map(Some), (&mut operators, None));
         let now = next.solved.unwrap();
         let at = At { scene: &scene, snapshot, load: &next.load, now: &now, past: past.each_ref() };
         show(at, &mut operators);

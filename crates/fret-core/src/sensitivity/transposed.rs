@@ -6,8 +6,8 @@ use super::change::Solution;
 use super::contact::Contact;
 use super::fields::{Fields, zeros};
 use super::krylov::{LinearProblem, Trust};
-use super::linearised::{Linearised, solved};
-use crate::fields::{add_scaled, dot};
+use super::linearised::Linearised;
+use crate::fields::{add_scaled, dot, solved};
 
 /// The transposed problem.
 pub(super) struct Transposed<'a, 'b> {
@@ -242,14 +242,15 @@ impl LinearProblem for Transposed<'_, '_> {
     fn invert(&mut self, unknowns: &[f64], rows: &mut [f64]) {
         let problem = &mut *self.problem;
         let n = problem.cells.len();
-        let right = std::array::from_fn(|motion| {
+        let right: [f64; MOTIONS] = std::array::from_fn(|motion| {
             let bordered = &problem.bordered[motion];
             // A motion that is prescribed is asked by no row but its own.
             let through: f64 = unknowns[..3 * n].iter().zip(bordered).map(|(a, b)| a * b).sum();
             unknowns[3 * n + motion] - through
         });
-        let schur = std::array::from_fn(|row| std::array::from_fn(|column| problem.schur[column][row]));
-        let amounts = solved(schur, right);
+        let schur: [[f64; MOTIONS]; MOTIONS] =
+            std::array::from_fn(|row| std::array::from_fn(|column| problem.schur[column][row]));
+        let amounts = solved(schur, right, 0.0);
         let mut tractions = zeros(n);
         problem.resultants_transposed(&problem.of_resultants(&amounts), &mut tractions);
         let mut left = vec![0.0; unknowns.len()];

@@ -15,12 +15,21 @@ pub struct Work {
     pub of_constants: usize,
     /// Preconditioner applications (unpadded).
     pub preconditioner_passes: usize,
+    /// Memory of the increments that are kept [bytes], at the most.
+    pub kept_bytes: usize,
 }
 
 impl Work {
     /// That of operators, and so many products with derivatives of the response.
     pub(super) fn of(operators: &Operators, of_constants: usize) -> Self {
         let (of_linear_problems, others, full_grid_applications, preconditioner_passes) = operators.work();
-        Self { of_linear_problems, others, full_grid_applications, of_constants, preconditioner_passes }
+        Self {
+            of_linear_problems,
+            others,
+            full_grid_applications,
+            of_constants,
+            preconditioner_passes,
+            kept_bytes: 0,
+        }
     }
 }

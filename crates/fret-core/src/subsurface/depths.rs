@@ -4,7 +4,45 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::{Base, HalfSpace};
+use crate::model::{Base, Dimension, HalfSpace, Periodicity, SurfaceGrid};
+
+/// Depths that are chosen where none are given.
+pub const AUTOMATIC: usize = 64;
+
+/// How deep to look below a contact of so many loaded cells at the most: three times the radius, or half-width, of their area; in a period
+/// half of its longer side [length].
+pub fn reach(grid: &SurfaceGrid, periodic: Periodicity, loaded: usize) -> f64 {
+    let ([width, length], dimension) = (grid.size(), grid.dimension());
+    if periodic.is_both() {
+        return 0.5 * width.max(length);
+    }
+    let radius = dimension.radius(loaded as f64 * grid.cell_area());
+    match dimension {
+        _ if radius > 0.0 => 3.0 * radius,
+        Dimension::Plane => width.min(length),
+        Dimension::Line => width,
+    }
+}
+
+/// How a depth moves with the thicknesses of the coatings above it, whose derivatives by a parameter are given: one at an interface goes with
+/// that; one that was chosen ([`automatic_depths`]) keeps its share of the layer, or of what is looked at down to `reach`; one that was given
+/// stays.
+pub fn deeper(half_space: &HalfSpace, point: DepthPoint, reach: Option<f64>, thicker: &[f64]) -> f64 {
+    let faces = interfaces(half_space);
+    let moves = |face: usize| thicker.iter().take(face + 1).sum::<f64>();
+    if let Some(face) = faces.iter().position(|face| (point.depth - face).abs() <= AT_INTERFACE * face) {
+        return moves(face);
+    }
+    let Some(reach) = reach else { return 0.0 };
+    let above = point.layer.checked_sub(1);
+    let (top, top_moves) = above.map_or((0.0, 0.0), |face| (faces[face], moves(face)));
+    let (bottom, bottom_moves) = match faces.get(point.layer) {
+        Some(&bottom) if bottom <= reach * (1.0 + AT_INTERFACE) => (bottom, moves(point.layer)),
+        _ => (reach, 0.0),
+    };
+    let share = if bottom > top { (point.depth - top) / (bottom - top) } else { 0.0 };
+    top_moves + share * (bottom_moves - top_moves)
+}
 
 /// Relative distance from an interface that counts as rounding of decimal numbers.
 const AT_INTERFACE: f64 = 1e-9;
@@ -159,6 +197,38 @@ mod tests {
         ));
         assert!(depth_points(&body(&[1.0], false), &[f64::NAN]).is_err());
         assert_eq!(depth_points(&body(&[1.0], false), &[]), Err(DepthError::None));
+    }
+
+    /// Every depth of a body against the same one where a coating is a little thicker: rounding of differences of 1e-6.
+    #[test]
+    fn depths_move_with_the_layers() {
+        let thickness = [0.3, 0.5];
+        for (chosen, reach) in [(true, 3.0), (true, 0.6), (false, 3.0)] {
+            let points = |thickness: &[f64]| {
+                let body = body(thickness, false);
+                let depths = [0.1, body.interfaces()[0], 0.7, body.interfaces()[1], 2.0];
+                if chosen {
+                    automatic_depths(&body, reach, 20)
+                } else {
+                    depth_points(&body, &depths).unwrap()
+                }
+            };
+            for layer in 0..2 {
+                let moved = |step: f64| {
+                    let mut thickness = thickness;
+                    thickness[layer] += step;
+                    points(&thickness)
+                };
+                let mut thicker = [0.0; 2];
+                thicker[layer] = 1.0;
+                let here = points(&thickness);
+                for (n, (up, down)) in moved(1e-6).iter().zip(&moved(-1e-6)).enumerate() {
+                    let expected = (up.depth - down.depth) / 2e-6;
+                    let found = deeper(&body(&thickness, false), here[n], chosen.then_some(reach), &thicker);
+                    assert!((found - expected).abs() < 1e-8, "{reach} {layer} {n}: {found} {expected}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -18,13 +18,14 @@ pub mod largest;
 pub mod operator;
 pub mod rim;
 pub mod severity;
+mod slopes;
 pub mod survey;
 pub mod tensor;
 
-pub use depths::{DepthError, DepthPoint, automatic_depths, depth_points};
+pub use depths::{AUTOMATIC, DepthError, DepthPoint, automatic_depths, deeper, depth_points, reach};
 pub use even::EvenStress;
 pub use largest::{Largest, Measure};
-pub use operator::{DepthOperator, Tractions};
+pub use operator::{DepthOperator, Tractions, change_of_stress};
 pub use severity::{Judged, MostSevere, Severity};
 pub use survey::{LoadedSurface, displacements, survey};
 pub use tensor::{Principal, StressField, StressTensor};

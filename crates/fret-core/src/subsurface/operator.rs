@@ -3,13 +3,15 @@
 use ndarray::{Array2, ArrayView2, CowArray, Ix2};
 
 use super::depths::DepthPoint;
-use super::tensor::StressField;
+use super::tensor::{StressField, StressTensor};
+use crate::fields::Dual;
 use crate::kernel::depth_cells::{
     displacement_coefficients, repeated_stress_coefficients, stress_coefficients,
 };
 use crate::kernel::depth_periodic::{displacement_symbols, stress_symbols};
 use crate::kernel::depth_response::DepthResponse;
 use crate::kernel::line_depth::line_stress_coefficients;
+use crate::kernel::{BelowSurface, DepthChange, LayerChanges};
 use crate::model::{HalfSpace, Periodicity, SurfaceGrid};
 use fret_fft::{Block, Convolution, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol, Workspace};
 
@@ -152,12 +154,71 @@ impl DepthOperator {
         Some(fields)
     }
 
+    /// How a number of the stress under a cell, with derivatives `by` the components of that, changes with the tractions on all cells: with
+    /// pressure, and with shear along x and y where the operator was made for it. What a traction on one cell does under another is what the
+    /// same traction there does here, but for the sign of what is odd.
+    pub fn by_tractions(&mut self, cell: [usize; 2], by: &StressTensor) -> Vec<Array2<f64>> {
+        let [nx, ny] = self.scene.shape;
+        let none = Array2::zeros((nx, ny));
+        let mut unit = none.clone();
+        unit[cell] = 1.0;
+        let mut field = StressField::zeros([nx, ny]);
+        let loads = self.scene.loads();
+        let of_load = |load: usize| {
+            let here = |number: usize| if load == number { unit.view() } else { none.view() };
+            let shear = self.scene.with_shear.then(|| [here(1), here(2)]);
+            self.stress_into(&Tractions { pressure: here(0), shear }, &mut field);
+            let mut sum = Array2::zeros((nx, ny));
+            for (component, (stress, by)) in field.components.iter().zip(by.0).enumerate() {
+                let turns = matches!(parity(component, load), Parity::OddEven | Parity::EvenOdd);
+                sum.scaled_add(if turns { -by } else { by }, stress);
+            }
+            sum
+        };
+        (0..loads).map(of_load).collect()
+    }
+
     /// The tractions row by row.
     fn standard<'a>(&self, tractions: &'a Tractions<'_>) -> Vec<CowArray<'a, f64, Ix2>> {
         assert_eq!(self.scene.with_shear, tractions.shear.is_some(), "shear given or asked for, not both");
         let shear = tractions.shear.iter().flatten();
         std::iter::once(&tractions.pressure).chain(shear).map(|field| field.as_standard_layout()).collect()
     }
+}
+
+/// How the stress at a depth changes with a parameter while the tractions stay, for each of some: by the derivatives of the constants of the
+/// layers of the half-space, from the surface down, those of the substrate last, and by that of the depth. `visit(number, field)`.
+///
+/// # Errors
+/// When a kernel is not finite: with moduli or lengths of extreme magnitude.
+///
+/// # Panics
+/// As [`DepthOperator::stress`].
+pub fn change_of_stress(
+    (half_space, changes): (&HalfSpace, &[LayerChanges]),
+    (point, deeper): (DepthPoint, f64),
+    (grid, periodic): (&SurfaceGrid, Periodicity),
+    tractions: &[Tractions<'_>],
+    mut visit: impl FnMut(usize, &StressField),
+) -> Result<(), ConvolutionError> {
+    let scene = Scene {
+        half_space: half_space.clone(),
+        shape: grid.cells(),
+        spacing: grid.spacing(),
+        periodic,
+        with_shear: tractions.iter().any(|tractions| tractions.shear.is_some()),
+        with_displacement: false,
+    };
+    let response = DepthChange::new(half_space, changes, (point.layer, Dual::new(point.depth, deeper)));
+    let mut kernels = Vec::new();
+    let stress = scene.stress(&response, &mut kernels)?;
+    let workspace = stress[0].workspace();
+    let planned = Planned { point, stress, displacement: None };
+    let mut operator = DepthOperator { scene, planned, workspace, kernels };
+    for (number, tractions) in tractions.iter().enumerate() {
+        visit(number, &operator.stress(tractions));
+    }
+    Ok(())
 }
 
 /// What stays the same from depth to depth.
@@ -173,25 +234,10 @@ struct Scene {
 impl Scene {
     /// Products of a depth; their kernels are made in `memory`.
     fn plan(&self, point: DepthPoint, memory: &mut Vec<f64>) -> Result<Planned, ConvolutionError> {
-        let Self { shape, spacing, periodic, with_shear, .. } = *self;
+        let Self { shape, spacing, periodic, .. } = *self;
         let response = DepthResponse::new(&self.half_space, point.layer, point.depth);
-        let coefficients = if periodic.is_both() {
-            stress_symbols(&response, shape, spacing)
-        } else if shape[1] == 1 {
-            line_stress_coefficients(&response, shape[0], spacing[0], with_shear)
-        } else if let Some(axis) = periodic.one_axis() {
-            repeated_stress_coefficients(&response, (shape, spacing), axis, with_shear)
-        } else {
-            stress_coefficients(&response, shape, spacing, with_shear, std::mem::take(memory))
-        };
-        let loads = if with_shear { 3 } else { 1 };
-        let stress = [[0, 1, 2], [3, 4, 5]].map(|components| {
-            self.product(loads, |load, output| {
-                (coefficients.kernel(load, components[output]), parity(components[output], load))
-            })
-        });
-        *memory = coefficients.into_memory();
-        let [normal, shear] = stress;
+        let stress = self.stress(&response, memory)?;
+        let loads = self.loads();
         let is_endless = shape[1] == 1 || periodic.one_axis().is_some();
         let displacement = if self.with_displacement && !is_endless {
             let coefficients = if periodic.is_both() {
@@ -208,7 +254,38 @@ impl Scene {
         } else {
             None
         };
-        Ok(Planned { point, stress: [normal?, shear?], displacement })
+        Ok(Planned { point, stress, displacement })
+    }
+
+    /// Pressure, and shear along x and y where there is any.
+    fn loads(&self) -> usize {
+        if self.with_shear { 3 } else { 1 }
+    }
+
+    /// Products of what stands below the surface; their kernels are made in `memory`.
+    fn stress(
+        &self,
+        response: &impl BelowSurface,
+        memory: &mut Vec<f64>,
+    ) -> Result<[DepthProduct; 2], ConvolutionError> {
+        let Self { shape, spacing, periodic, with_shear, .. } = *self;
+        let coefficients = if periodic.is_both() {
+            stress_symbols(response, shape, spacing)
+        } else if shape[1] == 1 {
+            line_stress_coefficients(response, shape[0], spacing[0], with_shear)
+        } else if let Some(axis) = periodic.one_axis() {
+            repeated_stress_coefficients(response, (shape, spacing), axis, with_shear)
+        } else {
+            stress_coefficients(response, shape, spacing, with_shear, std::mem::take(memory))
+        };
+        let stress = [[0, 1, 2], [3, 4, 5]].map(|components| {
+            self.product(self.loads(), |load, output| {
+                (coefficients.kernel(load, components[output]), parity(components[output], load))
+            })
+        });
+        *memory = coefficients.into_memory();
+        let [normal, shear] = stress;
+        Ok([normal?, shear?])
     }
 
     /// Product of three outputs from all loads.

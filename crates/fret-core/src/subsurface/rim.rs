@@ -1,6 +1,10 @@
 //! Surface stress at the rim of the contact, between the cells: under friction the tension behind a slider has a cusp there, with roots
 //! of the distance on both sides, which falls between the centres of cells.
 
+use ndarray::Array2;
+
+use crate::fields::{Scalar, Slopes};
+
 /// Cells at the rim are under one pressure each, which shifts the rim that the next ones point to by so much outwards [cells];
 /// measured on Hertz contacts of 18 to 85 cells in the radius, between -0.06 and 0.06 about it.
 const OUTWARDS: f64 = 0.08;
@@ -67,38 +71,91 @@ pub(super) fn at_rims_of(value: impl Fn(usize) -> f64, pressure: &[f64]) -> Vec<
     found
 }
 
+/// What the value at a rim that was found beside a cell is made of: the rims of four directions, of which one has that value.
+pub fn of_rim(
+    value: impl Fn([usize; 2]) -> f64,
+    pressure: &Array2<f64>,
+    (cell, found): ([usize; 2], f64),
+) -> Option<RimSlopes> {
+    [(0, -1), (0, 1), (1, -1), (1, 1)].into_iter().find_map(|(axis, outwards)| {
+        let at = |distance: isize| -> Option<[usize; 2]> {
+            let mut place = cell;
+            place[axis] = place[axis].checked_add_signed(outwards * distance)?;
+            pressure.get(place).map(|_| place)
+        };
+        let (inside, open) = ([-1, -2, -3].map(at), [1, 2, 3, 4].map(at));
+        let or_none = |place: Option<[usize; 2]>, of: &dyn Fn([usize; 2]) -> f64| place.map_or(0.0, of);
+        let pressures = inside.map(|place| or_none(place, &|place| pressure[place]));
+        let [v1, v2] = [open[0], open[1]].map(|place| or_none(place, &value));
+        let [v3, v4] = [open[2], open[3]].map(|place| place.map(&value));
+        let [p1, p2, p3, s1, s2, s3, s4] = Slopes::<7>::of_each([
+            pressures[0],
+            pressures[1],
+            pressures[2],
+            v1,
+            v2,
+            v3.unwrap_or(0.0),
+            v4.unwrap_or(0.0),
+        ]);
+        let (_, here) = cusp([p1, p2, p3], [s1, s2], [v3.map(|_| s3), v4.map(|_| s4)])?;
+        if here.value != found {
+            return None;
+        }
+        let of = |places: &[Option<[usize; 2]>], by: &[f64]| -> Vec<([usize; 2], f64)> {
+            let known = places.iter().zip(by).filter_map(|(place, by)| place.map(|place| (place, *by)));
+            known.filter(|(_, by)| *by != 0.0).collect()
+        };
+        Some(RimSlopes { by_values: of(&open, &here.by[3..]), by_pressures: of(&inside, &here.by[..3]) })
+    })
+}
+
+/// Derivatives of the value at a rim: by the values and by the pressures of cells.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RimSlopes {
+    /// By values.
+    pub by_values: Vec<([usize; 2], f64)>,
+    /// By pressures.
+    pub by_pressures: Vec<([usize; 2], f64)>,
+}
+
 /// Distance of the rim from the centre of the last loaded cell, and the value there; from the pressures of the three cells behind it
 /// and the values of the four open ones before it, of which the last two may lie beyond the end of the line.
-fn cusp([p1, p2, p3]: [f64; 3], [v1, v2]: [f64; 2], [v3, v4]: [Option<f64>; 2]) -> Option<(f64, f64)> {
-    let bend = |a: f64, b: f64, c: f64| ((a - 2.0 * b + c) / (c - a)).abs();
+fn cusp<S: Scalar>([p1, p2, p3]: [S; 3], [v1, v2]: [S; 2], [v3, v4]: [Option<S>; 2]) -> Option<(S, S)> {
+    let bend = |a: S, b: S, c: S| {
+        let [a, b, c] = [a, b, c].map(S::value);
+        ((a - 2.0 * b + c) / (c - a)).abs()
+    };
     let squares = [p1, p2, p3].map(|p| p * p);
-    let rises = p1 < p2 && p2 < p3 && v1 > v2 && v3.is_none_or(|v3| v2 > v3);
+    let less = |one: S, other: S| one.value() < other.value();
+    let rises = less(p1, p2) && less(p2, p3) && less(v2, v1) && v3.is_none_or(|v3| less(v3, v2));
     if !rises || bend(squares[0], squares[1], squares[2]) > bend(p1, p2, p3) {
         return None;
     }
     // p^2 = a - b t + c t^2 over the distance t outwards from the cell behind the last one.
     let [a, second, third] = squares;
-    let c = 0.5 * (third - 2.0 * second + a);
+    let c = (third - second * 2.0 + a) * 0.5;
     let b = second - a - c;
-    let root = (b * b - 4.0 * a * c).sqrt();
-    let rim = (2.0 * a / (b + root) - 1.0 - OUTWARDS).clamp(0.0, 1.0);
-    if rim.is_nan() {
+    let root = (b * b - a * 4.0 * c).sqrt();
+    let rim = a * 2.0 / (b + root) - 1.0 - OUTWARDS;
+    if rim.value().is_nan() {
         return None;
     }
-    let root_at = |cells: f64| (cells - rim).sqrt();
-    let through_two = |[v, w]: [f64; 2], [near, far]: [f64; 2]| (v * far - w * near) / (far - near);
+    let rim = rim.max(S::of(0.0)).min(S::of(1.0));
+    let root_at = |cells: f64| (S::of(cells) - rim).sqrt();
+    let through_two = |[v, w]: [S; 2], [near, far]: [S; 2]| (v * far - w * near) / (far - near);
+    let is_near = 1.0 - rim.value() <= NEAREST;
     let value = match (v3, v4) {
-        (Some(v3), Some(v4)) if 1.0 - rim <= NEAREST => {
+        (Some(v3), Some(v4)) if is_near => {
             // Lagrange's polynomial of second degree in the root, at 0.
             let [r, s, t] = [root_at(2.0), root_at(3.0), root_at(4.0)];
             v2 * s * t / ((r - s) * (r - t))
                 + v3 * r * t / ((s - r) * (s - t))
                 + v4 * r * s / ((t - r) * (t - s))
         }
-        (Some(v3), None) if 1.0 - rim <= NEAREST => through_two([v2, v3], [root_at(2.0), root_at(3.0)]),
+        (Some(v3), None) if is_near => through_two([v2, v3], [root_at(2.0), root_at(3.0)]),
         _ => through_two([v1, v2], [root_at(1.0), root_at(2.0)]),
     };
-    (value > v1).then_some((rim, value))
+    (value.value() > v1.value()).then_some((rim, value))
 }
 
 #[cfg(test)]

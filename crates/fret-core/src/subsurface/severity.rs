@@ -107,6 +107,13 @@ impl<'a> Severity<'a> {
         }
     }
 
+    /// The same by some of the parameters alone.
+    #[must_use]
+    pub fn only(mut self, parameters: &[Parameter]) -> Self {
+        self.fields.retain(|(parameter, _)| parameters.contains(parameter));
+        self
+    }
+
     /// Takes the stress at one depth in one increment: at each depth all increments of the cycle, in its order, before the next depth.
     pub fn look(&mut self, point: usize, surface: usize, field: &StressField) {
         let Some(place) = self.cycle.iter().position(|&index| index == surface) else { return };

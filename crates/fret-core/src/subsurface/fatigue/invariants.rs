@@ -54,8 +54,8 @@ pub fn dang_van(cycle: &[StressTensor], endurance: &Endurance) -> f64 {
     let rest = centre(&path);
     let mut most = f64::NEG_INFINITY;
     for (stress, point) in cycle.iter().zip(&path) {
-        let local = tensor_of(&std::array::from_fn(|n| point[n] - rest[n]));
-        most = most.max(0.5 * local.tresca() + endurance.dang_van_weight() * stress.hydrostatic());
+        most =
+            most.max(0.5 * local(point, &rest).tresca() + endurance.dang_van_weight() * stress.hydrostatic());
     }
     most / endurance.torsion
 }
@@ -65,6 +65,26 @@ pub(super) fn deviator_point(stress: &StressTensor) -> Point {
     let [xx, yy, zz, xy, xz, yz] = stress.deviator().0;
     let root = 2.0_f64.sqrt();
     [1.5_f64.sqrt() * zz, (xx - yy) / root, root * xy, root * xz, root * yz]
+}
+
+/// Derivatives by the stress, from those by the coordinates of its deviator.
+pub(super) fn stress_by_point([a, b, xy, xz, yz]: &Point) -> StressTensor {
+    let root = 2.0_f64.sqrt();
+    let along = 1.5_f64.sqrt() * a / 3.0;
+    let [x, y] = [b / root - along, -b / root - along];
+    StressTensor([x, y, 2.0 * along, root * xy, root * xz, root * yz])
+}
+
+/// Derivatives by the coordinates of the deviator, from those by the stress.
+pub(super) fn point_by_stress(by: &StressTensor) -> Point {
+    let [xx, yy, zz, xy, xz, yz] = by.0;
+    let root = 2.0_f64.sqrt();
+    [(zz - 0.5 * (xx + yy)) / 1.5_f64.sqrt(), (xx - yy) / root, xy / root, xz / root, yz / root]
+}
+
+/// The deviator less that at the centre of a ball.
+pub(super) fn local(point: &Point, rest: &Point) -> StressTensor {
+    tensor_of(&std::array::from_fn(|n| point[n] - rest[n]))
 }
 
 fn tensor_of([a, b, xy, xz, yz]: &Point) -> StressTensor {

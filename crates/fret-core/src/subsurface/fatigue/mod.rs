@@ -11,6 +11,7 @@ mod life;
 mod parameter;
 mod plane_search;
 mod shakedown;
+mod slopes;
 mod surface;
 
 pub use constants::{CrackConstants, FatigueConstants, LayerConstants, StrainLife};
@@ -19,4 +20,5 @@ pub use invariants::{Endurance, crossland, dang_van};
 pub use life::{cycles_by_fatemi_socie, cycles_by_smith_watson_topper};
 pub use parameter::{Bounds, Evaluated, Parameter};
 pub use shakedown::{first_yield_strength, shakedown_strength};
+pub use slopes::ParameterSlopes;
 pub use surface::{Ruiz, SurfacePoint, ruiz};

@@ -167,9 +167,9 @@ fn unfold(field: &mut [f32], [rows, columns]: [usize; 2], [nx, ny]: [usize; 2]) 
         field.copy_within(row * ny..(row + 1) * ny, (row + BEFORE) * columns + BEFORE);
     }
     let inside = |index: usize, count: usize| BEFORE + (index + count - BEFORE) % count;
-    for row in BEFORE..BEFORE + nx {
+    for line in field.chunks_exact_mut(columns).skip(BEFORE).take(nx) {
         for column in (0..BEFORE).chain(columns - BEHIND..columns) {
-            field[row * columns + column] = field[row * columns + inside(column, ny)];
+            line[column] = line[inside(column, ny)];
         }
     }
     for row in (0..BEFORE).chain(rows - BEHIND..rows) {

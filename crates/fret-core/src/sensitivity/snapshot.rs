@@ -1,0 +1,102 @@
+//! Increments as a run left them, for later: where bodies touch, and no more.
+
+use std::sync::Arc;
+
+use ndarray::Array2;
+
+use crate::history::StepRecord;
+use crate::model::{ContactState, Zone};
+
+/// Bytes a cell in contact: its number, three tractions, its zone.
+const CELL: usize = 4 + 3 * 8 + 1;
+
+/// An increment as the run left it: its record, and the state in front of the mirrors where there is pressure or shear.
+pub(super) struct Snapshot {
+    pub record: StepRecord,
+    shape: [usize; 2],
+    cells: Vec<u32>,
+    tractions: [Vec<f64>; 3],
+    zones: Vec<Zone>,
+    approach: f64,
+    shift: [f64; 2],
+    twist: f64,
+    tilt: [f64; 2],
+    /// Depth worn off both bodies together, after what happens to the surfaces where a cycle or a stage ends [length].
+    pub worn: Option<Arc<Array2<f64>>>,
+    /// Whether a cycle or a stage without cycles ends with it, whose wear is taken off then.
+    pub ends_block: bool,
+}
+
+impl Snapshot {
+    /// That of a state; `last`: the increment before.
+    pub fn of(record: &StepRecord, state: &ContactState, last: Option<&Self>) -> Self {
+        let fields = [&state.pressure, &state.shear[0], &state.shear[1]];
+        let (rows, columns) = state.zone.dim();
+        let flat = fields.map(|field| field.iter().copied().collect::<Vec<f64>>());
+        let zones: Vec<Zone> = state.zone.iter().copied().collect();
+        let touches =
+            |cell: &usize| zones[*cell] != Zone::Open || flat.iter().any(|field| field[*cell] != 0.0);
+        let touched: Vec<usize> = (0..rows * columns).filter(touches).collect();
+        Self {
+            record: record.clone(),
+            shape: [rows, columns],
+            cells: touched.iter().map(|cell| *cell as u32).collect(),
+            tractions: flat.map(|field| touched.iter().map(|cell| field[*cell]).collect()),
+            zones: touched.iter().map(|cell| zones[*cell]).collect(),
+            approach: state.approach,
+            shift: state.shift,
+            twist: state.twist,
+            tilt: state.tilt,
+            worn: state.worn_depth.as_ref().map(|depth| {
+                let same = last.and_then(|last| last.worn.as_ref()).filter(|known| ***known == *depth);
+                same.map_or_else(|| Arc::new(depth.clone()), Arc::clone)
+            }),
+            ends_block: false,
+        }
+    }
+
+    /// Whether the surfaces have worn at its end, since another one.
+    pub fn has_worn(&self, last: Option<&Self>) -> bool {
+        match (&self.worn, last.and_then(|last| last.worn.as_ref())) {
+            (Some(now), Some(then)) => !Arc::ptr_eq(now, then),
+            (Some(now), None) => now.iter().any(|depth| *depth != 0.0),
+            (None, _) => false,
+        }
+    }
+
+    /// Tractions, zones and motions of the state; nothing else.
+    pub fn state(&self) -> ContactState {
+        let mut state = ContactState {
+            approach: self.approach,
+            shift: self.shift,
+            twist: self.twist,
+            tilt: self.tilt,
+            ..ContactState::untouched(self.shape)
+        };
+        let [shear_x, shear_y] = &mut state.shear;
+        for (field, values) in [&mut state.pressure, shear_x, shear_y].into_iter().zip(&self.tractions) {
+            self.spread(values, field);
+        }
+        self.spread(&self.zones, &mut state.zone);
+        state
+    }
+
+    fn spread<T: Copy>(&self, values: &[T], field: &mut Array2<T>) {
+        for (cell, value) in self.cells.iter().zip(values) {
+            let cell = *cell as usize;
+            field[[cell / self.shape[1], cell % self.shape[1]]] = *value;
+        }
+    }
+
+    /// Cells under pressure, `[i, j]`.
+    pub fn pressed(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        let columns = self.shape[1];
+        let pressed = self.cells.iter().zip(&self.tractions[0]).filter(|(_, pressure)| **pressure > 0.0);
+        pressed.map(move |(cell, _)| [*cell as usize / columns, *cell as usize % columns])
+    }
+
+    /// Bytes that it takes.
+    pub fn bytes(&self) -> usize {
+        size_of::<Self>() + self.cells.len() * CELL
+    }
+}
