@@ -161,6 +161,11 @@ impl SpectralCompliance {
         self.give = give;
     }
 
+    /// Whether something lies between the surfaces that gives.
+    pub fn gives(&self) -> bool {
+        !self.give.is_empty()
+    }
+
     /// `u_z` from pressure and shear; needs the operator of that name.
     pub fn normal_from_all(&mut self, pressure: &[f64], shear: [&[f64]; 2], normal: &mut [f64]) {
         if let Some(product) = &self.normal_from_all {

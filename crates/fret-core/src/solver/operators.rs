@@ -60,9 +60,11 @@ impl RegionOperators {
     }
 
     /// Keeps the response of some cells, and counts its work.
-    pub fn take_sparse(&mut self, mut response: SparseResponse) {
-        self.coarse_work += response.take_work();
-        self.sparse = Some(response);
+    pub fn keep_sparse(&mut self, mut response: Option<SparseResponse>) {
+        if let Some(response) = &mut response {
+            self.coarse_work += response.take_work();
+        }
+        self.sparse = response;
     }
 
     /// The work since it was taken last; the region counts as this `fraction` of the whole grid.

@@ -9,7 +9,7 @@ mod response;
 mod tests;
 
 use super::problem::{Ending, NormalIteration};
-use super::response::NormalResponse;
+use super::response::NormalResponse as _;
 use super::{NormalEquations, NormalSolution, projected_cg};
 use crate::compliance::SurfaceCompliance;
 use crate::solver::contact_set::ContactSet;
@@ -48,14 +48,13 @@ pub fn solve(
     let all = pressure.len();
     let is_sparse = |cells: &ContactSet, fraction: f64| (cells.len() as f64) < fraction * all as f64;
     let plain = task.tilt().is_none() && task.load.hardness.is_none() && task.load.give == 0.0;
+    let plain = plain && !operators.compliance.gives();
     let contact = ContactSet::loaded(pressure);
     if !plain || all < FEWEST_CELLS || contact.len() == 0 || !is_sparse(&contact, SPARSE_BELOW) {
         return Ok(None);
     }
-    let Some(mut response) = operators.sparse.take().or_else(|| SparseResponse::of(operators)) else {
-        return Ok(None);
-    };
-    let law = CellLaw { self_influence: response.self_influence(), hardness: None };
+    let mut response = operators.sparse.take();
+    let law = CellLaw { self_influence: operators.compliance.self_influence().normal, hardness: None };
     let approach = task.load.approach_under(pressure);
     let (mut gap, mut iterations, mut before) = (Vec::new(), 0, f64::INFINITY);
     let solution = loop {
@@ -74,6 +73,8 @@ pub fn solve(
             break None;
         }
         before = residual.residual;
+        response = response.or_else(|| SparseResponse::of(operators));
+        let Some(response) = &mut response else { break None };
         response.begin(&cells);
         let (mut packed, mut moved) = (cells.packed(pressure), vec![0.0; cells.len()]);
         response.displacement(&packed, &mut moved);
@@ -87,7 +88,7 @@ pub fn solve(
         let done = iterations;
         let mut heard = |count: usize, found: f64| callback(done + count, found);
         let fields = [&mut packed[..], &mut moved];
-        let mut problem = NormalIteration::new(&here, fields, &mut response, goal, &mut heard);
+        let mut problem = NormalIteration::new(&here, fields, response, goal, &mut heard);
         let ending = projected_cg::iterate(&mut problem, MOST_STALLED)?;
         iterations += problem.iterations;
         cells.place(&packed, 1.0, pressure);
@@ -95,6 +96,6 @@ pub fn solve(
             break None;
         }
     };
-    operators.take_sparse(response);
+    operators.keep_sparse(response);
     Ok(solution)
 }
