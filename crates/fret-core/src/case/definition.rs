@@ -192,6 +192,8 @@ impl Case {
             || self.stages.iter().filter_map(|stage| stage.friction.as_ref()).any(CoulombFriction::is_map);
         if !self.profile.heights.is_empty() {
             "the heights end there: grid.beyond = \"no body\" where the body ends there, too; grid.periodic = true lets the surface repeat; or a lower load, heights of a larger area"
+        } else if self.periodic.one_axis().is_some() {
+            "enlarge grid.size across the axis that repeats; grid.beyond = \"no body\" where a body ends there"
         } else if self.size == GridSize::Auto {
             "write grid.size = [x, y], larger than what \"auto\" found, which fret plan shows"
         } else if has_map {

@@ -109,7 +109,7 @@ pub(super) fn datum(
     let Some(across) = across else {
         return judge.refuse(
             given.span(),
-            "grid.datum: only a line contact needs one, or a case that is periodic along one axis; here approach and shift are relative to infinity",
+            "grid.datum: only a line contact needs one, or a case that is periodic along one axis; here nothing is relative to a depth",
             "cells = 512 makes a line contact",
         );
     };

@@ -53,8 +53,8 @@ const EACH_CELL: usize = 16;
 /// padded, and the inverse is exact. Remembered: increments before the last, from the [third](REMEMBERING) one on.
 fn bytes_per_cell(coupling: Coupling, unpadded: bool) -> [usize; 3] {
     match (coupling, unpadded) {
-        (Coupling::Frictionless, false) => [28, 200, 0],
-        (Coupling::Frictionless, true) => [10, 142, 0],
+        (Coupling::Frictionless, false) => [28, 215, 10],
+        (Coupling::Frictionless, true) => [10, 165, 55],
         (Coupling::Uncoupled, false) => [50, 376, 60],
         (Coupling::Uncoupled, true) => [0, 340, 60],
         (Coupling::Coupled, false) => [80, 565, 60],

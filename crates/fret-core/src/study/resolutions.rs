@@ -152,7 +152,7 @@ impl Resolutions {
         let mut increments = vec![own.increments.clone()];
         for coarser in [half, quarter] {
             if only_one_grid(plan).is_ok()
-                && coarser.cells.iter().all(|count| *count >= FEWEST_CELLS || *count == 1)
+                && (0..2).all(|axis| coarser.cells[axis] >= FEWEST_CELLS || own.cells[axis] == 1)
             {
                 cells.insert(0, coarser.cells);
             }
@@ -240,6 +240,23 @@ pub(super) fn only_one_grid(plan: &Plan) -> Result<(), ResolutionError> {
 #[cfg(test)]
 mod tests {
     use super::{Kind, Resolutions};
+    use crate::case::Case;
+    use crate::plan::Plan;
+
+    /// Four cells across a strip are not halved to a line of them, which would be a line contact; a line is.
+    #[test]
+    fn a_strip_is_not_halved_to_a_line() {
+        let cells = |grid: &str| {
+            let text = format!(
+                "[grid]\n{grid}\n[upper]\nrigid = true\n[lower]\nsubstrate = {{ young = 1.0, poisson = 0.3 }}\n\
+                 [profile.cylinder]\nradius = 10.0\naxis = \"y\"\n[[load]]\nnormal_force = 0.01\nincrements = 4\n"
+            );
+            let plan = Plan::new(Case::from_toml(&text, "").unwrap()).unwrap();
+            Resolutions::halving(&plan).cells
+        };
+        assert_eq!(cells("cells = [64, 4]\nsize = [4.0, 0.25]\nperiodic = \"y\""), [[64, 4]]);
+        assert_eq!(cells("cells = 64\nsize = 4.0"), [[16, 1], [32, 1], [64, 1]]);
+    }
 
     /// A table that cannot be halved stands beside a stage that is: an order is counted in the increments of the latter.
     #[test]

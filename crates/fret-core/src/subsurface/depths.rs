@@ -16,9 +16,12 @@ pub fn reach(grid: &SurfaceGrid, periodic: Periodicity, loaded: usize) -> f64 {
     if periodic.is_both() {
         return 0.5 * width.max(length);
     }
-    let radius = dimension.radius(loaded as f64 * grid.cell_area());
+    let area = loaded as f64 * grid.cell_area();
+    let radius = dimension.radius(area);
+    // What repeats along one axis may be a strip: half as wide as its area for the length of a period.
+    let of_strip = periodic.one_axis().map_or(0.0, |axis| 0.5 * area / grid.size()[axis]);
     match dimension {
-        _ if radius > 0.0 => 3.0 * radius,
+        _ if radius > 0.0 => 3.0 * radius.max(of_strip),
         Dimension::Plane => width.min(length),
         Dimension::Line => width,
     }
@@ -169,7 +172,7 @@ pub fn automatic_depths(half_space: &HalfSpace, reach: f64, count: usize) -> Vec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Coating, ElasticMaterial};
+    use crate::model::{Axis, Coating, ElasticMaterial};
 
     fn body(thicknesses: &[f64], rigid: bool) -> HalfSpace {
         let material = |young| ElasticMaterial::new(young, 0.3).unwrap();
@@ -177,6 +180,20 @@ mod tests {
             thicknesses.iter().enumerate().map(|(n, h)| Coating::new(material(2.0 + n as f64), *h).unwrap());
         let base = if rigid { Base::Rigid } else { Base::Elastic(material(1.0)) };
         HalfSpace::new(coatings.collect(), base).unwrap()
+    }
+
+    /// Ten columns of a strip are as wide as ten cells of a line, whatever the period; balls in a row are looked at as one ball.
+    #[test]
+    fn below_a_strip_as_deep_as_below_a_line() {
+        let strip = |columns: usize| SurfaceGrid::new([64, columns], [0.5, 0.5]).unwrap();
+        let line = reach(&SurfaceGrid::new([64, 1], [0.5, 0.5]).unwrap(), Periodicity::NONE, 10);
+        for columns in [2, 8, 16] {
+            let found = reach(&strip(columns), Periodicity::Along(Axis::Y), 10 * columns);
+            assert!(found >= line * (1.0 - 1e-12), "{columns}: {found} {line}");
+        }
+        assert_eq!(reach(&strip(2), Periodicity::Along(Axis::Y), 20), line);
+        let of_ball = |periodic| reach(&strip(64), periodic, 12);
+        assert_eq!(of_ball(Periodicity::Along(Axis::Y)), of_ball(Periodicity::NONE));
     }
 
     #[test]
