@@ -3,9 +3,8 @@
 //! thinner than a cell, which answer like a foundation of springs, `p` and `gap` are.
 
 use std::array::from_fn;
-use std::ops::Range;
 
-use ndarray::{Array2, ArrayView1, ArrayView2, s};
+use ndarray::{Array2, ArrayView1, ArrayView2};
 
 /// The zero line of half-spaces lies this share of a cell inside the true edge (measured on Hertz contacts, confirmed on coated ones).
 const OFFSET: f64 = 0.024;
@@ -291,44 +290,10 @@ pub fn contact_cells(
     mirrored: [bool; 2],
 ) -> f64 {
     let (nx, ny) = pressure.dim();
-    contact_cells_in((pressure, gap), beyond, mirrored, [0..nx, 0..ny])
-}
-
-/// The same of a grid that repeats along some axes.
-pub fn contact_cells_in_period(
-    pressure: &ArrayView2<'_, f64>,
-    gap: &ArrayView2<'_, f64>,
-    beyond: f64,
-    (mirrored, repeats): ([bool; 2], [bool; 2]),
-) -> f64 {
-    let cells: [usize; 2] = pressure.dim().into();
-    let border = repeats.map(|repeats| if repeats { NEAR + 1 } else { 0 });
-    let at = |index: usize, axis: usize| (index + border[axis] * (cells[axis] - 1)) % cells[axis];
-    let wide = |field: &ArrayView2<'_, f64>| {
-        let shape = [0, 1].map(|axis| cells[axis] + 2 * border[axis]);
-        Array2::from_shape_fn(shape, |(i, j)| field[[at(i, 0), at(j, 1)]])
-    };
-    let (pressure, gap) = (wide(pressure), wide(gap));
-    let within = [0, 1].map(|axis| border[axis]..border[axis] + cells[axis]);
-    contact_cells_in((&pressure.view(), &gap.view()), beyond, mirrored, within)
-}
-
-/// Of the cells `within` these rows and columns.
-fn contact_cells_in(
-    (pressure, gap): (&ArrayView2<'_, f64>, &ArrayView2<'_, f64>),
-    beyond: f64,
-    mirrored: [bool; 2],
-    within: [Range<usize>; 2],
-) -> f64 {
-    let (nx, ny) = pressure.dim();
-    let [rows_within, columns_within] = within;
     let rise = Rise::of(pressure, mirrored);
     let level = match level_of(rise, pressure, gap, beyond, mirrored) {
         Some((level, reach)) if reach <= STEP => level,
-        _ => {
-            let inside = pressure.slice(s![rows_within, columns_within]);
-            return inside.iter().filter(|p| **p > 0.0).count() as f64;
-        }
+        _ => return pressure.iter().filter(|p| **p > 0.0).count() as f64,
     };
     let kind = |(level, gap): (&f64, &f64)| match *level > 0.0 {
         _ if *gap > beyond => BEYOND,
@@ -339,13 +304,13 @@ fn contact_cells_in(
     let line = |i: usize| &kinds[i * ny..][..ny];
     let mut threes = vec![0; ny];
     let mut area = 0.0;
-    for i in rows_within {
+    for i in 0..nx {
         let rows = [i.saturating_sub(1), i, (i + 1).min(nx - 1)];
         let [low, here, high] = rows.map(line);
         for (((three, low), here), high) in threes.iter_mut().zip(low).zip(here).zip(high) {
             *three = low | here | high;
         }
-        for j in columns_within.clone() {
+        for j in 0..ny {
             let columns = [j.saturating_sub(1), j, (j + 1).min(ny - 1)];
             match threes[columns[0]] | threes[j] | threes[columns[2]] {
                 LOADED => area += 1.0,

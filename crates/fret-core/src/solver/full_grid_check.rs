@@ -65,22 +65,14 @@ impl ContactSolver<'_> {
 
     /// Contact area [length^2] from the edge between the cells of a region, of the `pressure` and the `gap` of the grid.
     pub(super) fn contact_area(&self, region: Region, pressure: &Array2<f64>, gap: &Array2<f64>) -> f64 {
-        // At a mirror the edge goes on as it does at a side of the region: with the same value in the next cell.
-        let axes = self.symmetry.axes();
-        let repeats = [0, 1].map(|axis| self.periodic.axes()[axis] && !axes[axis]);
-        // A region may end one cell beyond the contact, which at the end of a period goes on at its beginning.
-        let mut region = region.widened(contact_edge::NEAR, self.grid.cells());
-        for axis in (0..2).filter(|&axis| repeats[axis]) {
-            (region.origin[axis], region.shape[axis]) = (0, self.grid.cells()[axis]);
-        }
+        // A region may end one cell beyond the contact.
+        let region = region.widened(contact_edge::NEAR, self.grid.cells());
         let [pressure, gap] = [pressure, gap].map(|field| region.view(field));
         let beyond = self.beyond_the_body();
+        // At a mirror the edge goes on as it does at a side of the region: with the same value in the next cell.
+        let axes = self.symmetry.axes();
         let mirrored = [0, 1].map(|axis| axes[axis] && region.origin[axis] == 0);
-        let cells = if repeats == [false; 2] {
-            contact_edge::contact_cells(&pressure, &gap, beyond, mirrored)
-        } else {
-            contact_edge::contact_cells_in_period(&pressure, &gap, beyond, (mirrored, repeats))
-        };
+        let cells = contact_edge::contact_cells(&pressure, &gap, beyond, mirrored);
         let cells = cells * self.symmetry.copies() as f64;
         cells * self.grid.cell_area()
     }

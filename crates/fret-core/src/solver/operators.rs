@@ -4,11 +4,13 @@ use std::mem::take;
 
 use super::linear::preconditioner::{CellWaves, Preconditioner};
 use super::linear::solver::LinearSolver;
-use super::normal::SparseResponse;
+use super::normal::{NormalResponse, SparseResponse};
 use super::outcome::Work;
 use super::region::Region;
 use super::settings::SolverSettings;
-use crate::compliance::{OperatorSet, SharedWorkspace, SpectralCompliance, SurfaceResponse};
+use crate::compliance::{
+    OperatorSet, SharedWorkspace, SpectralCompliance, SurfaceCompliance, SurfaceResponse,
+};
 use fret_fft::ConvolutionError;
 
 /// The operators of a region.
@@ -59,6 +61,12 @@ impl RegionOperators {
         })
     }
 
+    /// The response of some cells, where there is one: behind mirrors there is none.
+    pub fn sparse_response(&mut self) -> Option<SparseResponse> {
+        let Self { compliance, preconditioner, copies: 1, is_periodic, .. } = self else { return None };
+        SparseResponse::of(compliance, preconditioner, *is_periodic)
+    }
+
     /// Keeps the response of some cells, and counts its work.
     pub fn keep_sparse(&mut self, mut response: Option<SparseResponse>) {
         if let Some(response) = &mut response {
@@ -80,6 +88,20 @@ impl RegionOperators {
             ..Work::default()
         };
         work
+    }
+}
+
+impl NormalResponse for RegionOperators {
+    fn displacement(&mut self, pressure: &[f64], displacement: &mut [f64]) {
+        self.compliance.normal(pressure, displacement);
+    }
+
+    fn inverse(&mut self, displacement: &[f64], pressure: &mut [f64]) {
+        self.preconditioner.normal(displacement, pressure);
+    }
+
+    fn self_influence(&self) -> f64 {
+        self.compliance.self_influence().normal
     }
 }
 

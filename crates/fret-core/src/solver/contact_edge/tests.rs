@@ -309,21 +309,3 @@ fn a_part_in_front_of_mirrors_has_its_share_of_the_area() {
         }
     }
 }
-
-/// A contact that lies across the end of a period has the area that it has in the middle. The median of the slopes across its edge is taken
-/// over a few edges more than there are, at the ends: 1e-3 of the area at the most.
-#[test]
-fn the_area_does_not_depend_on_where_a_period_begins() {
-    let cells = 40;
-    let of = |shift: usize| {
-        let at = |index: usize| ((index + shift) % cells) as f64 - 19.3;
-        let height = |i: usize, j: usize| 49.0 - at(i).powi(2) - 1.3 * at(j).powi(2);
-        let pressure = Array2::from_shape_fn((cells, cells), |(i, j)| height(i, j).max(0.0).sqrt());
-        let gap = Array2::from_shape_fn((cells, cells), |(i, j)| (-height(i, j)).max(0.0).powf(1.5));
-        contact_cells_in_period(&pressure.view(), &gap.view(), f64::INFINITY, ([false; 2], [true; 2]))
-    };
-    let middle = of(0);
-    for shift in [7, 18, 20, 25] {
-        assert!((of(shift) / middle - 1.0).abs() < 1e-3, "{shift}: {} {middle}", of(shift));
-    }
-}

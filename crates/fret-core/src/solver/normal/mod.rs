@@ -11,7 +11,6 @@ mod response;
 mod sparse;
 mod yielding;
 
-use super::laws::complementarity::NormalResidual;
 use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use crate::compliance::SurfaceCompliance;
@@ -20,19 +19,10 @@ use crate::fields::lower;
 use active_set::Care;
 pub use equations::NormalEquations;
 pub use first_pressure::first_pressure;
+pub use problem::NormalSolution;
 use problem::{Ending, NormalIteration};
+pub use response::NormalResponse;
 pub use sparse::SparseResponse;
-
-/// What the normal solver reached.
-#[derive(Debug)]
-pub struct NormalSolution {
-    /// Approach and residual.
-    pub residual: NormalResidual,
-    /// Gap [length].
-    pub gap: Vec<f64>,
-    /// Iterations made.
-    pub iterations: usize,
-}
 
 /// Iterations of projected conjugate gradients that need not halve the residual before the active set is tried.
 const MAX_STALLED: usize = 20;

@@ -23,6 +23,17 @@ pub enum Ending {
     Stalled,
 }
 
+/// What the normal solver reached.
+#[derive(Debug)]
+pub struct NormalSolution {
+    /// Approach and residual.
+    pub residual: NormalResidual,
+    /// Gap [length].
+    pub gap: Vec<f64>,
+    /// Iterations made.
+    pub iterations: usize,
+}
+
 /// Unknowns, work fields and response of one normal problem. Fields are flat rows of one length, made once.
 pub struct NormalIteration<'a> {
     pub task: &'a NormalEquations<'a>,

@@ -1,8 +1,5 @@
 //! What the iterations of the frictionless problem ask of the bodies: displacements by pressures, and about what removes them.
 
-use super::super::operators::RegionOperators;
-use crate::compliance::SurfaceCompliance;
-
 /// The response of the cells that a problem is about.
 pub trait NormalResponse {
     /// Normal displacements [length] of pressures.
@@ -11,18 +8,4 @@ pub trait NormalResponse {
     fn inverse(&mut self, displacement: &[f64], pressure: &mut [f64]);
     /// Influence of a cell on itself [length/pressure].
     fn self_influence(&self) -> f64;
-}
-
-impl NormalResponse for RegionOperators {
-    fn displacement(&mut self, pressure: &[f64], displacement: &mut [f64]) {
-        self.compliance.normal(pressure, displacement);
-    }
-
-    fn inverse(&mut self, displacement: &[f64], pressure: &mut [f64]) {
-        self.preconditioner.normal(displacement, pressure);
-    }
-
-    fn self_influence(&self) -> f64 {
-        self.compliance.self_influence().normal
-    }
 }

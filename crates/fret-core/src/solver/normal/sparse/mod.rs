@@ -8,9 +8,10 @@ mod response;
 #[cfg(test)]
 mod tests;
 
-use super::problem::{Ending, NormalIteration};
+use super::equations::NormalEquations;
+use super::problem::{Ending, NormalIteration, NormalSolution};
+use super::projected_cg;
 use super::response::NormalResponse as _;
-use super::{NormalEquations, NormalSolution, projected_cg};
 use crate::compliance::SurfaceCompliance;
 use crate::solver::contact_set::ContactSet;
 use crate::solver::laws::complementarity::{CellLaw, normal_residual, violation};
@@ -73,7 +74,7 @@ pub fn solve(
             break None;
         }
         before = residual.residual;
-        response = response.or_else(|| SparseResponse::of(operators));
+        response = response.or_else(|| operators.sparse_response());
         let Some(response) = &mut response else { break None };
         response.begin(&cells);
         let (mut packed, mut moved) = (cells.packed(pressure), vec![0.0; cells.len()]);

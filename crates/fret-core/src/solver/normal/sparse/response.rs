@@ -5,9 +5,9 @@ use ndarray::ArrayView2;
 use super::super::response::NormalResponse;
 use super::far::FarField;
 use super::near::{NearSums, REACH};
-use crate::compliance::{SharedWorkspace, SurfaceCompliance};
+use crate::compliance::{SharedWorkspace, SpectralCompliance, SurfaceCompliance};
 use crate::solver::contact_set::ContactSet;
-use crate::solver::operators::RegionOperators;
+use crate::solver::linear::preconditioner::Preconditioner;
 use crate::solver::outcome::Work;
 
 /// The response of some cells of a region.
@@ -22,17 +22,22 @@ pub struct SparseResponse {
 }
 
 impl SparseResponse {
-    /// Of the operators of a region; `None` where there is none: behind mirrors, and on odd or short sides, of lengths that have no product in single precision.
-    pub fn of(operators: &mut RegionOperators) -> Option<Self> {
-        let (shape, periodic) = (operators.region.shape, operators.is_periodic);
+    /// Of a region whose displacements and their approximate inverse these are; `None` where there is none: on odd or short sides, of lengths that
+    /// have no product in single precision, and where one axis alone repeats.
+    pub fn of(
+        compliance: &mut SpectralCompliance,
+        preconditioner: &mut Preconditioner,
+        periodic: bool,
+    ) -> Option<Self> {
+        let shape = compliance.shape();
         let may_be = |cells: usize| cells.is_multiple_of(2) && cells >= 8 * REACH;
-        if operators.copies > 1 || !shape.into_iter().all(may_be) {
+        if !shape.into_iter().all(may_be) {
             return None;
         }
         let [rows, columns] = shape;
         let (mut pulse, mut found) = (vec![0.0; rows * columns], vec![0.0; rows * columns]);
         pulse[0] = 1.0;
-        operators.compliance.normal(&pulse, &mut found);
+        compliance.normal(&pulse, &mut found);
         let kernel = ArrayView2::from_shape(shape, &found).ok()?;
         // Along an axis that repeats alone the response rises again towards the end of the period.
         let rises = |end: [usize; 2], middle: [usize; 2]| !periodic && kernel[end] > kernel[middle];
@@ -44,14 +49,14 @@ impl SparseResponse {
             kernel[offset.map(isize::unsigned_abs)] - FarField::between(&kernel, parity, offset)
         });
         (pulse[0], pulse[rows / 2 * columns + columns / 2]) = (0.0, 1.0);
-        operators.preconditioner.normal(&pulse, &mut found);
+        preconditioner.normal(&pulse, &mut found);
         let kernel = ArrayView2::from_shape(shape, &found).ok()?;
         let inverse = NearSums::new((shape, periodic), false, |_, offset| {
             let at = [0, 1].map(|axis| (shape[axis] / 2).wrapping_add_signed(offset[axis]));
             let [x, y] = offset.map(|along| along as f64 / (REACH + 1) as f64);
             window(x.hypot(y)) * kernel[at]
         });
-        let self_influence = operators.compliance.self_influence().normal;
+        let self_influence = compliance.self_influence().normal;
         let workspace = SharedWorkspace::default();
         Some(Self { near, far, inverse, self_influence, workspace, work: Work::default() })
     }

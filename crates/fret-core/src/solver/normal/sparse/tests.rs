@@ -1,7 +1,7 @@
 use ndarray::Array2;
 use std::ops::ControlFlow;
 
-use super::super::first_pressure;
+use super::super::first_pressure::first_pressure;
 use super::*;
 use crate::compliance::{OperatorSet, SharedWorkspace, SurfaceResponse};
 use crate::kernel::{Components, influence_coefficients, periodic_symbols};
@@ -63,7 +63,7 @@ fn displacements_are_about_those_of_the_whole_region() {
     let mut random = Random::seeded(3);
     for response in responses() {
         let mut operators = operators(&response);
-        let mut sparse = SparseResponse::of(&mut operators).unwrap();
+        let mut sparse = operators.sparse_response().unwrap();
         let all = SHAPE[0] * SHAPE[1];
         // Clusters, two of them at the ends of the region.
         let cells = ContactSet::of(all, |cell| {
