@@ -198,7 +198,13 @@ def test_an_objective_of_nothing_is_refused() -> None:
         ({"limits": {"max_pressure": (2.0, 1.0)}}, "least and the largest"),
         ({"tolerance": 0.0}, "between 0 and 1"),
         ({"case": {**ball(90e9), "grid": {"cells": [32, 32], "size": "auto"}}}, "moves the grid with the numbers"),
-        ({"case": {**COATED, "wear": {"coefficient": 1e-13}}, "by": {THICKNESS: (1e-6, 8e-6)}}, r"\[wear\]"),
+        (
+            {
+                "case": {**COATED, "wear": {"coefficient": 1e-13, "rim": {"interior": 0.1, "width": 1e-5}}},
+                "by": {THICKNESS: (1e-6, 8e-6)},
+            },
+            r"\[wear\]",
+        ),
     ],
 )
 def test_questions_without_an_answer_are_refused(changes: dict[str, Any], words: str) -> None:

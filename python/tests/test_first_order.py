@@ -110,10 +110,14 @@ def test_what_has_no_first_order_is_refused(distributions: dict[str, Any], of: s
         fretting.first_order(HERTZ, distributions, of=of)
 
 
-def test_wear_has_no_first_order() -> None:
+def test_wear_by_its_distance_from_the_rim_has_no_first_order() -> None:
     given = {"load[0].normal_force": fretting.Normal(10.0, 1.0)}
     with pytest.raises(ValueError, match=r"\[wear\]"):
-        fretting.first_order({**RUBBED, "wear": {"coefficient": 1e-13}}, given, of="max_pressure")
+        fretting.first_order(
+            {**RUBBED, "wear": {"coefficient": 1e-13, "rim": {"interior": 0.1, "width": 1e-5}}},
+            given,
+            of="max_pressure",
+        )
 
 
 def in_a_folder(folder: Path) -> Path:
