@@ -39,7 +39,7 @@ def subsurface(
     refuse_thinned(history)
     if displacement and (history.is_line or isinstance(history._periodic, str)):
         raise ValueError(
-            "displacement: below the surface of a contact without end along one axis displacements are not computed"
+            "displacement: below a line contact, or another without end along one axis, displacements are not computed"
         )
     pressure = on_grid(history, history.field("pressure", increment))
     shear = None

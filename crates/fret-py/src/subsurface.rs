@@ -110,7 +110,7 @@ pub fn subsurface_displacement<'py>(
     let shape = tractions.0.as_array().dim();
     if shape.1 == 1 || periodic.one_axis().is_some() {
         return Err(PyValueError::new_err(
-            "displacements below the surface of a line contact, or of one that repeats along one axis, are not computed",
+            "displacements below a line contact, or another without end along one axis, are not computed",
         ));
     }
     let cells = shape.0 * shape.1;
