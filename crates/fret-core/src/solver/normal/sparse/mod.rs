@@ -1,5 +1,5 @@
 //! Sparse contact: the frictionless problem on the cells that are in contact or may come into it. On these alone its fields are held and passed
-//! over, by a response that is about right. What that and the other cells leave is taken up, round after round, by displacements of the whole region
+//! over, by a response that is about right. What that and the other cells leave is corrected, round after round, by displacements of the whole region
 //! in double precision, of which the residual is judged (iterative refinement, as an outer loop over active cells).
 
 mod far;
