@@ -18,6 +18,19 @@ pub(super) struct Bound {
     pub by: [f64; 3],
 }
 
+impl Bound {
+    /// Of a law, which is also there for the cells of the region, in one of these cells under a pressure.
+    pub fn of(
+        (law, of_region): (&CoulombFriction, &FrictionLaw),
+        (scene, cell): (&Scene<'_>, usize),
+        pressure: f64,
+    ) -> Self {
+        let (value, slope) = of_region.at(cell, pressure);
+        let [coefficient, strength] = bound_by_friction((law, scene.region.at(cell)), pressure);
+        Self { value, by: [slope, coefficient, strength] }
+    }
+}
+
 /// What a cell that slips dissipates, by its slip, its shear before and after, and its bounds before and after.
 struct Slips {
     place: usize,
@@ -69,11 +82,7 @@ impl<'a> Energies<'a> {
         (law, rule): (&CoulombFriction, &Rule),
     ) -> Self {
         let of_region = FrictionLaw::in_region(law, scene.region);
-        let bound = |cell: usize, pressure: f64| {
-            let (value, slope) = of_region.at(cell, pressure);
-            let [coefficient, strength] = bound_by_friction((law, scene.region.at(cell)), pressure);
-            Bound { value, by: [slope, coefficient, strength] }
-        };
+        let bound = |cell: usize, pressure: f64| Bound::of((law, &of_region), (scene, cell), pressure);
         let mut found = Self { scene, now, before, slips: Vec::new(), opens: Vec::new() };
         for (place, cell) in now.contact.cells().enumerate() {
             let zones = [before.zone_of(cell), now.zone_of(cell)];

@@ -2,7 +2,6 @@
 //! of the run (`run/slip_increment.rs`).
 
 use super::change::Change;
-use super::contact::bound_by_friction;
 use super::energies::{Bound, Inputs, Outputs, shares_of_slip};
 use super::rule::{Rule, combination, product};
 use super::scene::Scene;
@@ -39,11 +38,7 @@ impl Wear {
         (law, rule): (&CoulombFriction, &Rule),
     ) -> Self {
         let of_region = FrictionLaw::in_region(law, scene.region);
-        let bound = |cell: usize, pressure: f64| {
-            let (value, slope) = of_region.at(cell, pressure);
-            let [coefficient, strength] = bound_by_friction((law, scene.region.at(cell)), pressure);
-            Bound { value, by: [slope, coefficient, strength] }
-        };
+        let bound = |cell: usize, pressure: f64| Bound::of((law, &of_region), (scene, cell), pressure);
         let mut places = vec![None; scene.region.len()];
         now.contact.cells().enumerate().for_each(|(place, cell)| places[cell] = Some(place));
         let of_cell = |(cell, place): (usize, Option<usize>)| {

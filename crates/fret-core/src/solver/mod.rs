@@ -29,6 +29,7 @@ mod moving_edge;
 mod nested_start;
 mod newton;
 mod normal;
+mod normal_response;
 mod operators;
 mod outcome;
 mod pace;

@@ -4,7 +4,7 @@ use std::mem::take;
 
 use super::linear::preconditioner::{CellWaves, Preconditioner};
 use super::linear::solver::LinearSolver;
-use super::normal::{NormalResponse, SparseResponse};
+use super::normal_response::{NormalResponse, SparseResponse};
 use super::outcome::Work;
 use super::region::Region;
 use super::settings::SolverSettings;

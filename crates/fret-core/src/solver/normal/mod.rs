@@ -7,7 +7,6 @@ mod first_pressure;
 pub mod grid_transfer;
 mod problem;
 mod projected_cg;
-mod response;
 mod sparse;
 mod yielding;
 
@@ -21,8 +20,6 @@ pub use equations::NormalEquations;
 pub use first_pressure::first_pressure;
 pub use problem::NormalSolution;
 use problem::{Ending, NormalIteration};
-pub use response::NormalResponse;
-pub use sparse::SparseResponse;
 
 /// Iterations of projected conjugate gradients that need not halve the residual before the active set is tried.
 const MAX_STALLED: usize = 20;

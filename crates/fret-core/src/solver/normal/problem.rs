@@ -3,11 +3,11 @@
 use super::super::laws::complementarity::{CellLaw, NormalResidual, height_below, length_scale};
 use super::super::laws::projection::project_pressure;
 use super::super::laws::tilt_motions::TiltMotions;
+use super::super::normal_response::NormalResponse;
 use super::super::prescribed::NormalLoad;
 use super::super::settings::{IterationCallback, SolveError};
 use super::equations::NormalEquations;
 use super::first_pressure::first_pressure;
-use super::response::NormalResponse;
 use super::yielding;
 use crate::fields::{CellRule, Reals, each_cell, lower};
 

@@ -2,22 +2,18 @@
 //! over, by a response that is about right. What that and the other cells leave is corrected, round after round, by displacements of the whole region
 //! in double precision, of which the residual is judged (iterative refinement, as an outer loop over active cells).
 
-mod far;
-mod near;
-mod response;
 #[cfg(test)]
 mod tests;
 
 use super::equations::NormalEquations;
 use super::problem::{Ending, NormalIteration, NormalSolution};
 use super::projected_cg;
-use super::response::NormalResponse as _;
 use crate::compliance::SurfaceCompliance;
 use crate::solver::contact_set::ContactSet;
 use crate::solver::laws::complementarity::{CellLaw, normal_residual, violation};
+use crate::solver::normal_response::NormalResponse as _;
 use crate::solver::operators::RegionOperators;
 use crate::solver::settings::{IterationCallback, SolveError};
-pub use response::SparseResponse;
 
 /// Contact is sparse on less than this fraction of the cells: on a tenth, products of the whole region cost as much as sums over near cells.
 const SPARSE_BELOW: f64 = 0.04;
@@ -90,11 +86,13 @@ pub fn solve(
         let mut heard = |count: usize, found: f64| callback(done + count, found);
         let fields = [&mut packed[..], &mut moved];
         let mut problem = NormalIteration::new(&here, fields, response, goal, &mut heard);
-        let ending = projected_cg::iterate(&mut problem, MOST_STALLED)?;
+        let ending = projected_cg::iterate(&mut problem, MOST_STALLED);
         iterations += problem.iterations;
         cells.place(&packed, 1.0, pressure);
-        if ending == Ending::Stalled {
-            break None;
+        match ending {
+            Ok(Ending::Solved(_)) => {}
+            Err(SolveError::Stopped) => return Err(SolveError::Stopped),
+            Ok(Ending::Stalled) | Err(_) => break None,
         }
     };
     operators.keep_sparse(response);

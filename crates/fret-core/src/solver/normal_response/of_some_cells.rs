@@ -2,9 +2,9 @@
 
 use ndarray::ArrayView2;
 
-use super::super::response::NormalResponse;
 use super::far::FarField;
 use super::near::{NearSums, REACH};
+use super::operator::NormalResponse;
 use crate::compliance::{SharedWorkspace, SpectralCompliance, SurfaceCompliance};
 use crate::solver::contact_set::ContactSet;
 use crate::solver::linear::preconditioner::Preconditioner;
