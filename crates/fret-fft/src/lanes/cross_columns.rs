@@ -162,9 +162,11 @@ impl<L: Lanes, const F: usize> Task<L> for CrossSlots<'_, L, F> {
             let turns = &plan.mirror_turns()[4 * group..][..4];
             for side in 0..2 {
                 for field in 0..counts[side].min(F) {
-                    let parts = [0, 1].map(|part| {
-                        innermost::<L, F>(lanes, lines, n, [side, field, part, 4 * group], &weights)
-                    });
+                    let mut parts = [[Complex::zero(lanes); 4]; 2];
+                    for part in 0..2 {
+                        let at = [side, field, part, 4 * group];
+                        parts[part] = innermost::<L, F>(lanes, lines, n, at, &weights);
+                    }
                     slots[side][field] = slots_of(lanes, parts, mirrored.then_some(turns));
                 }
             }

@@ -54,10 +54,11 @@ impl<L: Lanes, const F: usize> Task<L> for MultiplyParts<'_, L, F> {
             let turns = &self.plan.mirror_turns()[place..place + 4];
             let turns = self.mirrored.then_some(turns);
             for field in 0..self.inputs.min(F) {
-                let parts = [0, 1].map(|part| {
+                let mut parts = [[Complex::zero(lanes); 4]; 2];
+                for part in 0..2 {
                     let quad = &lines[(2 * field + part) * n + place..][..4];
-                    butterfly(lanes, load_quad(lanes, quad), &weights)
-                });
+                    parts[part] = butterfly(lanes, load_quad(lanes, quad), &weights);
+                }
                 slots.0[field] = slots_of(lanes, parts, turns);
             }
             for (output, terms) in self.terms.iter().enumerate() {

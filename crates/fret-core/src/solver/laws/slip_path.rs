@@ -188,10 +188,12 @@ pub fn row_of_chord<R: Reals>(slip: [R; 2], turn: [R; 2], across: [R; 2]) -> [R;
     let lengths = (square * (turn[0] * turn[0] + turn[1] * turn[1])).sqrt() * FADED;
     let along = slip[0] * turn[0] + slip[1] * turn[1] - lengths;
     let turned = across[0] * turn[0] + across[1] * turn[1];
-    [0, 1].map(|axis| {
+    let mut rows = across;
+    for axis in 0..2 {
         let row = across[axis] - turned * (turn[axis] - slip[axis] * (lengths / square));
-        along.if_at_most(zero, across[axis], row)
-    })
+        rows[axis] = along.if_at_most(zero, across[axis], row);
+    }
+    rows
 }
 
 #[cfg(test)]
