@@ -5,6 +5,7 @@
 mod answered;
 mod bench;
 mod broken_off;
+mod compiled;
 mod damaged;
 mod explored;
 mod heated;

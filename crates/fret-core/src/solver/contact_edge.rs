@@ -2,9 +2,13 @@
 //! Near the edge of a contact of half-spaces both `p^2` inside and `gap^(2/3)` outside are linear in the distance to it; on layers much
 //! thinner than a cell, which answer like a foundation of springs, `p` and `gap` are.
 
+mod ends;
+
 use std::array::from_fn;
 
 use ndarray::{Array2, ArrayView1, ArrayView2};
+
+pub use ends::Ends;
 
 /// The zero line of half-spaces lies this share of a cell inside the true edge (measured on Hertz contacts, confirmed on coated ones).
 const OFFSET: f64 = 0.024;
@@ -35,10 +39,10 @@ impl Rise {
     /// Under a round body the power of the pressure is linear in the square of the distance from the middle of a grid line's loaded cells,
     /// so that it bends along the line, and goes on more steeply outside: by a seventh from cell to cell where six cells are in the radius.
     /// Half-spaces are told from layers without that, since there the bend only makes them more certain.
-    fn of(pressure: &ArrayView2<'_, f64>, mirrored: [bool; 2]) -> Self {
+    fn of(pressure: &ArrayView2<'_, f64>, ends: [Ends; 2]) -> Self {
         let mut edges: Vec<EdgeOfLine> = Vec::new();
-        for (lines, mirrored) in [(pressure.t(), mirrored[0]), (pressure.view(), mirrored[1])] {
-            lines.rows().into_iter().for_each(|line| edges_of(&line, mirrored, &mut edges));
+        for (lines, ends) in [(pressure.t(), ends[0]), (pressure.view(), ends[1])] {
+            lines.rows().into_iter().for_each(|line| edges_of(&line, ends, &mut edges));
         }
         let mut bends = Vec::with_capacity(edges.len());
         let mut bend = |power: f64, of: fn(&EdgeOfLine, f64) -> f64| {
@@ -112,19 +116,27 @@ impl EdgeOfLine {
     }
 }
 
-/// Notes the edges of a grid line towards which the pressure of three cells falls. `mirrored`: the line begins at a mirror.
-fn edges_of(line: &ArrayView1<'_, f64>, mirrored: bool, edges: &mut Vec<EdgeOfLine>) {
-    let is_loaded = |cell: usize| line[cell] > 0.0;
+/// Notes the edges of a grid line towards which the pressure of three cells falls.
+fn edges_of(line: &ArrayView1<'_, f64>, ends: Ends, edges: &mut Vec<EdgeOfLine>) {
+    let cells = line.len();
+    // A period is read from an open cell on, so that no contact reaches over its end.
+    let repeats = ends == Ends::Period;
+    let first = if repeats { line.iter().position(|pressure| *pressure <= 0.0) } else { Some(0) };
+    let Some(first) = first else { return };
+    let at = |cell: usize| line[if first + cell < cells { first + cell } else { first + cell - cells }];
+    let [low, high] = ends.mirrored();
     let mut start = 0;
-    while start < line.len() {
-        if !is_loaded(start) {
+    while start < cells {
+        if at(start) <= 0.0 {
             start += 1;
             continue;
         }
-        let end = (start..line.len()).find(|cell| !is_loaded(*cell)).unwrap_or(line.len());
+        let end = (start..cells).find(|cell| at(*cell) <= 0.0).unwrap_or(cells);
         let loaded = end - start;
-        let whole = if mirrored && start == 0 { 2 * loaded } else { loaded };
-        let is_known = whole > 4 && (start > 0 || mirrored) && end < line.len();
+        let (from_first, to_last) = (start == 0, end == cells && !repeats);
+        let images = usize::from(from_first && low) + usize::from(to_last && high);
+        let whole = loaded * (1 + images);
+        let is_known = whole > 4 && (!from_first || low) && (!to_last || high);
         let across = is_known.then_some(whole as f64);
         if loaded >= 3 {
             let mut note = |[a, b, c]: [f64; 3]| {
@@ -133,11 +145,11 @@ fn edges_of(line: &ArrayView1<'_, f64>, mirrored: bool, edges: &mut Vec<EdgeOfLi
                     edges.push(EdgeOfLine { pressures: [b / a, c / a], across });
                 }
             };
-            if start > 0 {
-                note([line[start + 2], line[start + 1], line[start]]);
+            if !from_first {
+                note([start + 2, start + 1, start].map(at));
             }
-            if end < line.len() {
-                note([line[end - 3], line[end - 2], line[end - 1]]);
+            if !to_last {
+                note([end - 3, end - 2, end - 1].map(at));
             }
         }
         start = end;
@@ -151,21 +163,20 @@ pub const NEAR: usize = 2;
 /// slopes of both along grid lines across the edge equal (of foundations those of a parabola). Farther out than two cells it is just
 /// negative. `None` when no grid line crosses an edge.
 pub fn level_function(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>) -> Option<Array2<f64>> {
-    level_of(Rise::ROOT, pressure, gap, f64::INFINITY, [false; 2]).map(|(level, _)| level)
+    level_of(Rise::ROOT, pressure, gap, f64::INFINITY, [Ends::Open; 2]).map(|(level, _)| level)
 }
 
 /// The level function of pressures that rise so, and how many cells beyond its last one pressure would reach zero, in the median of
-/// the edges. Cells with a gap wider than `beyond`, where a body has ended, tell nothing about the edge. `mirrored`: axes whose first cells
-/// lie at a mirror.
+/// the edges. Cells with a gap wider than `beyond`, where a body has ended, tell nothing about the edge.
 fn level_of(
     rise: Rise,
     pressure: &ArrayView2<'_, f64>,
     gap: &ArrayView2<'_, f64>,
     beyond: f64,
-    mirrored: [bool; 2],
+    ends: [Ends; 2],
 ) -> Option<(Array2<f64>, f64)> {
     let (nx, ny) = pressure.dim();
-    let near = near_the_contact(pressure);
+    let near = near_the_contact(pressure, ends);
     let value = |((&p, &gap), near): ((&f64, &f64), bool)| {
         if p > 0.0 {
             rise.inside(p)
@@ -185,15 +196,14 @@ fn level_of(
     for four in level.windows(3 * ny + 1) {
         slopes.read([four[0], four[ny], four[2 * ny], four[3 * ny]]);
     }
-    // Those that begin with the image of the first cell; others across a mirror are images of these.
-    if mirrored[1] {
-        for line in level.chunks_exact(ny).filter(|line| line.len() > 2) {
-            slopes.read([line[0], line[0], line[1], line[2]]);
+    for four in ends[1].fours(ny) {
+        for line in level.chunks_exact(ny) {
+            slopes.read(four.map(|j| line[j]));
         }
     }
-    if mirrored[0] {
-        for three in level.windows(2 * ny + 1).take(ny) {
-            slopes.read([three[0], three[0], three[ny], three[2 * ny]]);
+    for four in ends[0].fours(nx) {
+        for j in 0..ny {
+            slopes.read(four.map(|i| level[i * ny + j]));
         }
     }
     let reach = slopes.reach()?;
@@ -254,27 +264,33 @@ impl Slopes {
 }
 
 /// Cells with a loaded one at most [`NEAR`] away along both axes.
-fn near_the_contact(pressure: &ArrayView2<'_, f64>) -> Vec<bool> {
+fn near_the_contact(pressure: &ArrayView2<'_, f64>, ends: [Ends; 2]) -> Vec<bool> {
     let columns = pressure.ncols();
     let mut near: Vec<bool> = pressure.iter().map(|p| *p > 0.0).collect();
     let mut before = near.clone();
-    spread(&mut near, columns, &mut before);
+    spread(&mut near, columns, ends[0], &mut before);
     for line in near.chunks_exact_mut(columns) {
-        spread(line, 1, &mut before[..columns]);
+        spread(line, 1, ends[1], &mut before[..columns]);
     }
     near
 }
 
 /// Marks what has a marked neighbour at most [`NEAR`] places of `stride` away. `before`: room for the marks before.
-fn spread(marks: &mut [bool], stride: usize, before: &mut [bool]) {
+fn spread(marks: &mut [bool], stride: usize, ends: Ends, before: &mut [bool]) {
     before.copy_from_slice(marks);
     for distance in 1..=NEAR {
         let shift = (distance * stride).min(marks.len());
-        for (to, from) in marks[shift..].iter_mut().zip(&*before) {
-            *to |= *from;
-        }
-        for (to, from) in marks.iter_mut().zip(&before[shift..]) {
-            *to |= *from;
+        let rest = marks.len() - shift;
+        let mut mark = |to: usize, from: usize, count: usize| {
+            for (to, from) in marks[to..to + count].iter_mut().zip(&before[from..from + count]) {
+                *to |= *from;
+            }
+        };
+        mark(shift, 0, rest);
+        mark(0, shift, rest);
+        if ends == Ends::Period {
+            mark(0, rest, shift);
+            mark(rest, 0, shift);
         }
     }
 }
@@ -282,16 +298,16 @@ fn spread(marks: &mut [bool], stride: usize, before: &mut [bool]) {
 /// Contact area in units of one cell, from pressure and gap on a grid (or a box of it). Good to about 0.05 cells along the
 /// perimeter for smooth contacts, of half-spaces and of layers much thinner than a cell alike; a contact without an edge inside the
 /// grid, and one whose pressure ends in a step, are counted by cells.
-/// Where the gap is wider than `beyond`, a body has ended, at the border of the cell. `mirrored`: axes whose first cells lie at a mirror.
+/// Where the gap is wider than `beyond`, a body has ended, at the border of the cell. `ends`: what lies beyond those of both axes.
 pub fn contact_cells(
     pressure: &ArrayView2<'_, f64>,
     gap: &ArrayView2<'_, f64>,
     beyond: f64,
-    mirrored: [bool; 2],
+    ends: [Ends; 2],
 ) -> f64 {
     let (nx, ny) = pressure.dim();
-    let rise = Rise::of(pressure, mirrored);
-    let level = match level_of(rise, pressure, gap, beyond, mirrored) {
+    let rise = Rise::of(pressure, ends);
+    let level = match level_of(rise, pressure, gap, beyond, ends) {
         Some((level, reach)) if reach <= STEP => level,
         _ => return pressure.iter().filter(|p| **p > 0.0).count() as f64,
     };
@@ -305,13 +321,13 @@ pub fn contact_cells(
     let mut threes = vec![0; ny];
     let mut area = 0.0;
     for i in 0..nx {
-        let rows = [i.saturating_sub(1), i, (i + 1).min(nx - 1)];
+        let rows = ends[0].around(i, nx);
         let [low, here, high] = rows.map(line);
         for (((three, low), here), high) in threes.iter_mut().zip(low).zip(here).zip(high) {
             *three = low | here | high;
         }
         for j in 0..ny {
-            let columns = [j.saturating_sub(1), j, (j + 1).min(ny - 1)];
+            let columns = ends[1].around(j, ny);
             match threes[columns[0]] | threes[j] | threes[columns[2]] {
                 LOADED => area += 1.0,
                 OPEN => {}

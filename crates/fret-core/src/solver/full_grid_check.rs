@@ -3,7 +3,7 @@
 
 use ndarray::Array2;
 
-use super::contact_edge;
+use super::contact_edge::{Ends, NEAR, contact_cells};
 use super::increment_problem::Solved;
 use super::region::Region;
 use super::{ContactSolver, Coupling, SolveError};
@@ -65,14 +65,16 @@ impl ContactSolver<'_> {
 
     /// Contact area [length^2] from the edge between the cells of a region, of the `pressure` and the `gap` of the grid.
     pub(super) fn contact_area(&self, region: Region, pressure: &Array2<f64>, gap: &Array2<f64>) -> f64 {
-        // A region may end one cell beyond the contact.
-        let region = region.widened(contact_edge::NEAR, self.grid.cells());
+        // A region may end one cell beyond the contact; of an axis that repeats all is asked.
+        let cells = self.grid.cells();
+        let repeats = self.repeats();
+        let region = region.widened([0, 1].map(|axis| if repeats[axis] { cells[axis] } else { NEAR }), cells);
         let [pressure, gap] = [pressure, gap].map(|field| region.view(field));
         let beyond = self.beyond_the_body();
         // At a mirror the edge goes on as it does at a side of the region: with the same value in the next cell.
         let axes = self.symmetry.axes();
-        let mirrored = [0, 1].map(|axis| axes[axis] && region.origin[axis] == 0);
-        let cells = contact_edge::contact_cells(&pressure, &gap, beyond, mirrored);
+        let ends = [0, 1].map(|axis| Ends::of(axes[axis] && region.origin[axis] == 0, repeats[axis]));
+        let cells = contact_cells(&pressure, &gap, beyond, ends);
         let cells = cells * self.symmetry.copies() as f64;
         cells * self.grid.cell_area()
     }
@@ -84,13 +86,15 @@ impl ContactSolver<'_> {
         0.5 * BEYOND_THE_BODY * (cells_x as f64 * dx).hypot(cells_y as f64 * dy)
     }
 
+    /// Whether the contact repeats along x and along y.
+    fn repeats(&self) -> [bool; 2] {
+        if self.response.is_periodic() { [true; 2] } else { self.periodic.axes() }
+    }
+
     /// Whether there is pressure in an outermost row or column, apart from those at a mirror and those where the contact repeats.
     pub(super) fn touches_edge(&self, pressure: &Array2<f64>) -> bool {
-        if self.response.is_periodic() {
-            return false;
-        }
         let mirrored = self.symmetry.axes();
-        let repeats = self.periodic.axes();
+        let repeats = self.repeats();
         let (nx, ny) = pressure.dim();
         let any = |view: ndarray::ArrayView1<'_, f64>| view.iter().any(|p| *p > 0.0);
         let across = || (!mirrored[0] && any(pressure.row(0))) || any(pressure.row(nx - 1));

@@ -67,10 +67,10 @@ impl Region {
         inside(field.view(), self.ranges())
     }
 
-    /// With so many more cells on each side, as far as a grid of `cells` has them.
-    pub fn widened(&self, by: usize, cells: [usize; 2]) -> Self {
-        let origin = self.origin.map(|first| first.saturating_sub(by));
-        let end = [0, 1].map(|axis| (self.origin[axis] + self.shape[axis] + by).min(cells[axis]));
+    /// With so many more cells on each side of both axes, as far as a grid of `cells` has them.
+    pub fn widened(&self, by: [usize; 2], cells: [usize; 2]) -> Self {
+        let origin = [0, 1].map(|axis| self.origin[axis].saturating_sub(by[axis]));
+        let end = [0, 1].map(|axis| (self.origin[axis] + self.shape[axis] + by[axis]).min(cells[axis]));
         Self { origin, shape: [0, 1].map(|axis| end[axis] - origin[axis]) }
     }
 
@@ -253,10 +253,10 @@ mod tests {
     #[test]
     fn a_wider_region_ends_at_the_sides_of_the_grid() {
         let (grid, region) = field();
-        let wider = region.widened(1, [5, 7]);
+        let wider = region.widened([1, 1], [5, 7]);
         assert_eq!(wider, Region { origin: [0, 1], shape: [4, 5] });
         assert_eq!(wider.view(&grid)[[3, 4]], 35.0);
-        assert_eq!(region.widened(2, [5, 7]), Region { origin: [0, 0], shape: [5, 7] });
+        assert_eq!(region.widened([2, 9], [5, 7]), Region { origin: [0, 0], shape: [5, 7] });
     }
 
     #[test]

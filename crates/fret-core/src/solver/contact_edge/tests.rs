@@ -45,13 +45,13 @@ fn the_power_with_which_pressure_rises_is_read_off_its_edges() {
                 })
             };
             for keep in 0..5 {
-                let found = Rise::of(&lone(keep).view(), [false; 2]).power;
+                let found = Rise::of(&lone(keep).view(), [Ends::Open; 2]).power;
                 // Twenty halvings of the interval from 1 to 2.
                 assert!((found - expected).abs() < 2e-6, "{power}, turned {kind}, {keep}: {found}");
             }
         }
     }
-    assert_eq!(Rise::of(&Array2::zeros((4, 4)).view(), [false; 2]), Rise::ROOT);
+    assert_eq!(Rise::of(&Array2::zeros((4, 4)).view(), [Ends::Open; 2]), Rise::ROOT);
 }
 
 #[test]
@@ -84,7 +84,7 @@ fn the_level_goes_on_evenly_outside() {
     // Where a body has ended nothing is read off: such a cell lies as low as the lowest.
     let mut ended = gap.clone();
     ended[[2, 5]] = 1e3;
-    let level = level_of(Rise::ROOT, &pressure.view(), &ended.view(), 999.0, [false; 2]).unwrap().0;
+    let level = level_of(Rise::ROOT, &pressure.view(), &ended.view(), 999.0, [Ends::Open; 2]).unwrap().0;
     for ((i, j), found) in level.indexed_iter() {
         let expected = if (i, j) == (2, 5) { expected[[2, 6]] } else { expected[[i, j]] };
         assert!((found - expected).abs() < 1e-12, "{i} {j}: {found} {expected}");
@@ -93,7 +93,7 @@ fn the_level_goes_on_evenly_outside() {
         assert_eq!(level_function(&full.view(), &gap.view()), None);
     }
     // All gaps too wide: no slope outside.
-    assert_eq!(level_of(Rise::ROOT, &pressure.view(), &gap.view(), 1.0, [false; 2]), None);
+    assert_eq!(level_of(Rise::ROOT, &pressure.view(), &gap.view(), 1.0, [Ends::Open; 2]), None);
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn cells_are_near_within_two_of_a_loaded_one() {
     for (i, j) in [(4, 5), (0, 0), (8, 10), (3, 10), (8, 1), (1, 0)] {
         let mut pressure = Array2::zeros((9, 11));
         pressure[[i, j]] = 1.0;
-        let near = near_the_contact(&pressure.view());
+        let near = near_the_contact(&pressure.view(), [Ends::Open; 2]);
         for (index, near) in near.into_iter().enumerate() {
             let (a, b) = (index / 11, index % 11);
             assert_eq!(near, a.abs_diff(i) <= 2 && b.abs_diff(j) <= 2, "{i} {j}: {a} {b}");
@@ -170,7 +170,7 @@ fn areas_of_straight_strips_are_exact() {
         let pressure = columns(9, |x| 3.0 * (edge - x).max(0.0).powf(rise));
         let gap = columns(9, |x| 7.0 * (x - edge).max(0.0).powf(gap_power));
         for (pressure, gap) in turned(&pressure).iter().zip(turned(&gap)) {
-            let area = contact_cells(&pressure.view(), &gap.view(), f64::INFINITY, [false; 2]);
+            let area = contact_cells(&pressure.view(), &gap.view(), f64::INFINITY, [Ends::Open; 2]);
             assert!((area - 5.0 * (edge + 0.5 + offset)).abs() < 1e-5, "{rise}: {area}");
         }
     }
@@ -179,13 +179,16 @@ fn areas_of_straight_strips_are_exact() {
     let pressure = columns(9, |x| if x < 6.5 { (x - edge).max(0.0).sqrt() } else { 0.0 });
     let gap = columns(9, |x| if x < 6.5 { (edge - x).max(0.0).powf(1.5) } else { 1e3 });
     for (pressure, gap) in turned(&pressure).iter().zip(turned(&gap)) {
-        let area = contact_cells(&pressure.view(), &gap.view(), 999.0, [false; 2]);
+        let area = contact_cells(&pressure.view(), &gap.view(), 999.0, [Ends::Open; 2]);
         assert!((area - 5.0 * (6.5 - edge + 0.024)).abs() < 1e-5, "{area}");
     }
     // Without an edge cells are counted.
     let full = columns(9, |_| 1.0);
-    assert_eq!(contact_cells(&full.view(), &columns(9, |_| 0.0).view(), f64::INFINITY, [false; 2]), 45.0);
-    assert_eq!(contact_cells(&columns(9, |_| 0.0).view(), &full.view(), f64::INFINITY, [false; 2]), 0.0);
+    assert_eq!(
+        contact_cells(&full.view(), &columns(9, |_| 0.0).view(), f64::INFINITY, [Ends::Open; 2]),
+        45.0
+    );
+    assert_eq!(contact_cells(&columns(9, |_| 0.0).view(), &full.view(), f64::INFINITY, [Ends::Open; 2]), 0.0);
 }
 
 /// A round contact off the middles of the cells, whole and cut by the end of a body: to 0.05 cells along its edge.
@@ -202,7 +205,7 @@ fn areas_of_discs_and_of_their_segments_are_near() {
     for (rise, (of_pressure, of_gap)) in pressures.into_iter().zip(gaps).enumerate() {
         let pressure = Array2::from_shape_fn((33, 32), |(i, j)| of_pressure(ratio(i, j)));
         let gap = Array2::from_shape_fn((33, 32), |(i, j)| of_gap(ratio(i, j)));
-        let area = contact_cells(&pressure.view(), &gap.view(), f64::INFINITY, [false; 2]);
+        let area = contact_cells(&pressure.view(), &gap.view(), f64::INFINITY, [Ends::Open; 2]);
         let off = (area - std::f64::consts::PI * radius * radius) / (std::f64::consts::TAU * radius);
         println!("{rise}: {off:.3} cells");
         assert!(off.abs() < 0.05, "{rise}: {off}");
@@ -215,7 +218,7 @@ fn areas_of_discs_and_of_their_segments_are_near() {
         let whole =
             radius * radius * (-chord / radius).acos() + chord * (radius * radius - chord * chord).sqrt();
         for (pressure, gap) in turned(&cut).iter().zip(turned(&open)) {
-            let area = contact_cells(&pressure.view(), &gap.view(), 999.0, [false; 2]);
+            let area = contact_cells(&pressure.view(), &gap.view(), 999.0, [Ends::Open; 2]);
             let off = (area - whole) / (std::f64::consts::TAU * radius);
             println!("{rise}, cut: {off:.3} cells");
             assert!(off.abs() < 0.05, "{rise}, cut: {off}");
@@ -242,7 +245,7 @@ fn pressure_that_ends_in_a_step_is_counted_by_cells() {
             Array2::from_shape_fn((21, 21), |(i, j)| if at(i, j) < radius { of(at(i, j)) } else { 0.0 });
         let gap = Array2::from_shape_fn((21, 21), |(i, j)| 0.1 * (at(i, j) - radius).max(0.0));
         let cells = pressure.iter().filter(|p| **p > 0.0).count() as f64;
-        (contact_cells(&pressure.view(), &gap.view(), f64::INFINITY, [false; 2]), cells)
+        (contact_cells(&pressure.view(), &gap.view(), f64::INFINITY, [Ends::Open; 2]), cells)
     };
     for of in [&|_: f64| 1.0_f64, &|r: f64| 1.0 - 0.001 * r, &|r: f64| 1.0 / (64.0 - r * r).sqrt()]
         as [&dyn Fn(f64) -> f64; 3]
@@ -268,13 +271,57 @@ fn areas_of_parabolas_are_met_on_few_cells() {
             radius * radius - x * x - y * y
         });
         let [pressure, gap] = [1.0, -1.0].map(|sign| level.mapv(|level| f64::max(sign * level, 0.0)));
-        let area = contact_cells(&pressure.view(), &gap.view(), f64::INFINITY, [false; 2]);
+        let area = contact_cells(&pressure.view(), &gap.view(), f64::INFINITY, [Ends::Open; 2]);
         let error = (area / std::f64::consts::PI).sqrt() - radius;
         assert!(error.abs() < 0.01, "{radius}: {error}");
         if off == [0.0; 2] {
             let [pressure, gap] = [&pressure, &gap].map(|field| field.slice(ndarray::s![20.., 20..]));
-            let quarter = contact_cells(&pressure, &gap, f64::INFINITY, [true; 2]);
+            let quarter = contact_cells(&pressure, &gap, f64::INFINITY, [Ends::Mirror; 2]);
             assert!((4.0 * quarter / area - 1.0).abs() < 1e-12, "{area} {quarter}");
+        }
+    }
+}
+
+/// A period of uneven contacts that reach over its ends: its area is the same wherever the period is cut, since the same is read off it; where it
+/// mirrors itself half of it has half of the area, the contacts at both mirrors with it.
+#[test]
+fn the_area_of_a_period_does_not_depend_on_where_it_is_cut() {
+    let (nx, ny) = (24, 30);
+    let wave = |cell: usize, cells: usize, waves: f64| {
+        (std::f64::consts::TAU * waves * (cell as f64 + 0.5) / cells as f64).cos()
+    };
+    for depth in [-0.6, -0.1, 0.3, 0.9] {
+        for odd in [0.0, 0.4] {
+            let level = Array2::from_shape_fn((nx, ny), |(i, j)| {
+                let sine =
+                    |cell: usize, cells: usize| (std::f64::consts::TAU * cell as f64 / cells as f64).sin();
+                let even =
+                    wave(i, nx, 1.0) + 0.7 * wave(j, ny, 2.0) + 0.3 * wave(i, nx, 2.0) * wave(j, ny, 1.0);
+                even + depth + odd * sine(i, nx) * sine(j, ny)
+            });
+            for (rise, gap_power) in [(0.5, 1.5), (1.0, 1.0)] {
+                let pressure = level.mapv(|level| level.max(0.0).powf(rise));
+                let gap = level.mapv(|level| (-level).max(0.0).powf(gap_power));
+                let area = |from: [usize; 2], cells: [usize; 2], ends: Ends| {
+                    let part = |field: &Array2<f64>| {
+                        Array2::from_shape_fn(cells, |(i, j)| field[[(i + from[0]) % nx, (j + from[1]) % ny]])
+                    };
+                    contact_cells(&part(&pressure).view(), &part(&gap).view(), f64::INFINITY, [ends; 2])
+                };
+                let whole = area([0, 0], [nx, ny], Ends::Period);
+                let by_cells = pressure.iter().filter(|pressure| **pressure > 0.0).count() as f64;
+                assert!(whole != by_cells && (whole / by_cells - 1.0).abs() < 0.1, "{whole} {by_cells}");
+                for from in [[1, 0], [0, 7], [5, 11], [12, 15], [23, 29]] {
+                    let cut = area(from, [nx, ny], Ends::Period);
+                    // the same cells summed in another order
+                    assert!((cut / whole - 1.0).abs() < 1e-12, "{depth} {odd} {from:?}: {cut} {whole}");
+                }
+                if odd == 0.0 {
+                    let quarter = area([0, 0], [nx / 2, ny / 2], Ends::Mirrors);
+                    // images are the same but for the rounding of a cosine
+                    assert!((4.0 * quarter / whole - 1.0).abs() < 1e-10, "{depth}: {quarter} {whole}");
+                }
+            }
         }
     }
 }
@@ -297,8 +344,8 @@ fn a_part_in_front_of_mirrors_has_its_share_of_the_area() {
             let area = |[x, y]: [usize; 2]| {
                 let part = |field: &Array2<f64>| field.slice(ndarray::s![x.., y..]).to_owned();
                 let (pressure, gap) = (part(&pressure), part(&gap));
-                let mirrored = [x > 0, y > 0];
-                contact_cells(&pressure.view(), &gap.view(), f64::INFINITY, mirrored)
+                let ends = [x, y].map(|first| Ends::of(first > 0, false));
+                contact_cells(&pressure.view(), &gap.view(), f64::INFINITY, ends)
             };
             let whole = area([0, 0]);
             for (first, copies) in [([12, 0], 2.0), ([0, 12], 2.0), ([12, 12], 4.0)] {
