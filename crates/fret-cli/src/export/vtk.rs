@@ -36,10 +36,8 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(files)
 }
 
-/// The end of the element of an array: with its unit, as VTK keeps it, where there is one.
-pub fn data_array_end(units: Option<&Units>, name: &str) -> String {
-    let kind =
-        if let "shear" | "slip" = name { kind_of_field(&format!("{name}_x")) } else { kind_of_field(name) };
+/// The end of the element of an array of a kind: with its unit, as VTK keeps it, where there is one.
+pub fn data_array_end(units: Option<&Units>, kind: &str) -> String {
     match units.filter(|_| !kind.is_empty()) {
         Some(units) => {
             let unit = maud::html! { (units.of(kind)) }.into_string();
@@ -66,10 +64,12 @@ fn image(fields: &Fields, position: usize, file: &Path, units: Option<&Units>) -
     let mut described = String::new();
     let mut offset = 0;
     for Array { name, kind, components, bytes } in &arrays {
+        let of_a_component =
+            if *components == 1 { kind_of_field(name) } else { kind_of_field(&format!("{name}_x")) };
         described += &format!(
             "        <DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" \
              format=\"appended\" offset=\"{offset}\"{}\n",
-            data_array_end(units, name)
+            data_array_end(units, of_a_component)
         );
         offset += 8 + bytes.len();
     }
