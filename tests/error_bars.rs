@@ -272,6 +272,22 @@ fn bars_hold_from_six_cells_in_the_radius_on_and_are_refused_below() {
     println!("largest error over bar of 46 radii from 6.1 to 18 cells: {worst:.2?}");
 }
 
+/// Contacts with corners, under a Berkovich pyramid: against the same program's area on 256 cells a side, which 512 cells change by 0.5 %.
+#[test]
+fn areas_under_pyramids_lie_within_their_bars() {
+    for cells in [32, 40, 48, 56, 64] {
+        let text = format!(
+            "[grid]\ncells = [{cells}, {cells}]\nsize = \"auto\"\n[upper]\nrigid = true\n[lower]\nsubstrate = {{ young = 1.0, poisson = 0.3 }}\n\
+             [profile.pyramid]\nindenter = \"berkovich\"\nhalf_angle = 85.0\n[friction]\ncoefficient = 0.0\n\
+             [[load]]\nnormal_force = 0.004\nincrements = 1\n"
+        );
+        let said = bars(&planned(&text))[0].of(Quantity::ContactArea);
+        let error = (said.value[0] - 0.0839).abs();
+        println!("{cells}: {:.4} +- {:.4}", said.value[0], said.bar.unwrap());
+        assert!(error <= said.bar.unwrap() && said.bar.unwrap() < 0.15 * said.value[0], "{cells}: {said:?}");
+    }
+}
+
 /// Where the plan cannot know the contact the run's own end decides: a rough contact of a few cells gets no bars.
 #[test]
 fn a_contact_of_few_cells_gets_no_bars_after_the_run_either() {

@@ -367,6 +367,40 @@ fn parts_of_cells_are_refused() {
     assert!(refused.contains("moves by whole cells") && refused.contains("0.6667 cells"), "{refused}");
 }
 
+/// A steady state is told by an increment of one step, from which the next stage counts its way: over whole cells it stays steady, the way as the
+/// user counts it from the start is refused with the distance rolled before.
+#[test]
+fn rolling_on_from_a_steady_state_stays_steady() {
+    let force = 0.15 * PI / 400.0;
+    let text = |to: f64| {
+        let pull = format!("[[load]]\ntangential_force = [{force:e}, 0.0]\nincrements = 2\n");
+        let way =
+            format!("[[load]]\nroll = \"steady\"\nincrements = 1\n[[load]]\nroll = {to}\nincrements = 4\n");
+        cylinders("cells = 64\nsize = 3.2\ndatum = 100.0", "frame = \"contact\"", &format!("{pull}{way}"))
+    };
+    let history = solved(&text(0.25));
+    let [.., steady, _, _, _, last] = &history.steps[..] else { panic!("too few") };
+    assert!((steady.roll[0] / 0.05 - 1.0).abs() < 1e-12 && (last.roll[0] / 0.25 - 1.0).abs() < 1e-12);
+    let creepage = |step: &StepRecord| step.creepage.map_or(f64::NAN, |along| along[0]);
+    // what is left of a transient, 1e-5 of the shear
+    assert!((creepage(last) / creepage(steady) - 1.0).abs() < 1e-4, "{last:?}");
+    let case = Case::from_toml(&text(0.2), "case.toml").unwrap_or_else(|error| panic!("{error}"));
+    let refused = Plan::new(case).map(|_| ()).unwrap_err().to_string();
+    assert!(refused.contains("0.7500 cells") && refused.contains("after [0.05, 0.0]"), "{refused}");
+}
+
+/// Bodies of one material under no force roll without creeping: nothing changes from the first length on, and that is steady.
+#[test]
+fn free_rolling_is_steady_at_once() {
+    let history = solved(&cylinders(
+        "cells = 64\nsize = 3.2\ndatum = 100.0",
+        "frame = \"contact\"",
+        "[[load]]\nroll = \"steady\"\nincrements = 1\n",
+    ));
+    let last = history.steps.last().unwrap();
+    assert!(last.creepage.is_some_and(|along| along[0].abs() < 1e-12) && last.max_shear == 0.0, "{last:?}");
+}
+
 /// Rolling along x leaves the mirror across y, and none across its way; spin leaves none.
 #[test]
 fn rolling_keeps_the_mirror_beside_its_way() {

@@ -11,7 +11,7 @@ use crate::checkpoint_folder::newest_start;
 use crate::error::ResultsError;
 use crate::results::Results;
 use crate::run_record::StartedFrom;
-use crate::state_store::{lost_state, start_below, state_below, states_below};
+use crate::state_store::{lost_state, memory_below, start_below, state_below, states_below};
 
 /// More increments than this are not listed one by one.
 const MOST_LISTED: usize = 12;
@@ -90,7 +90,8 @@ impl Origin {
                         damaged(format!("{shown}: {name} of increment {increment} is missing"))
                     })
                 })?;
-                Start::new(plan, solved, None).ok_or_else(|| {
+                let memory = memory_below(results, increment).map_err(damaged)?;
+                Start::new(plan, solved, memory).ok_or_else(|| {
                     damaged(format!("{shown}: the state of increment {increment} is damaged"))
                 })?
             }

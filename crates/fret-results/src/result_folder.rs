@@ -275,6 +275,9 @@ impl ResultFolder {
             if let Some(rest) = &kept.rest {
                 self.states.keep(kept.increment, rest)?;
             }
+            if let Some(memory) = &kept.memory {
+                self.states.keep_memory(kept.increment, memory)?;
+            }
         }
         Ok(self.history.add(record)?)
     }

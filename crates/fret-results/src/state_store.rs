@@ -1,5 +1,5 @@
-//! `states/`: of every increment that another run can start from what its kept fields do not hold, in a file by its number; and
-//! `start.state`, the state that this run started from itself.
+//! `states/`: of every increment that another run can start from what its kept fields do not hold, in a file by its number; `memory`, what
+//! the solver remembers at the end of the run; and `start.state`, the state that this run started from itself.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use fret_core::history::Start;
 use fret_core::model::SolvedState;
 use fret_core::plan::Plan;
+use fret_core::solver::SolverMemory;
 
 use crate::error::{ResultsError, Unwritten};
 use crate::names::{START, STATES};
@@ -16,6 +17,7 @@ use crate::run_record::Record;
 use crate::tally::Tally;
 
 const FIRST_LINE: &str = "fretting state 5\n";
+const MEMORY: &str = "memory";
 
 /// The states while a run goes.
 #[derive(Debug)]
@@ -50,6 +52,11 @@ impl StateStore {
         write_packed(&self.path.join(increment.to_string()), FIRST_LINE, postcard::to_stdvec(rest).ok())
     }
 
+    /// Writes down what the solver remembers at the end of the last increment.
+    pub fn keep_memory(&self, increment: usize, memory: &SolverMemory) -> Result<(), ResultsError> {
+        write_packed(&self.path.join(MEMORY), FIRST_LINE, postcard::to_stdvec(&(increment, memory)).ok())
+    }
+
     /// Why the states of the first increments of a run are not those that were written, if they are not; `kept` are those of them whose
     /// fields are kept.
     pub fn damaged(results: &Path, plan: &Plan, kept: &[usize], tally: &Tally) -> Option<String> {
@@ -68,6 +75,7 @@ impl StateStore {
     }
 
     fn cut_back(&self, solved: usize) -> Result<(), Unwritten> {
+        removed(&self.path.join(MEMORY))?;
         let beyond = numbers_in(&self.path).into_iter().filter(|number| *number >= solved);
         beyond.map(|number| self.path.join(number.to_string())).try_for_each(|file| removed(&file))
     }
@@ -91,6 +99,18 @@ pub fn state_below(results: &Path, increment: usize) -> Result<SolvedState, Stri
     let path = results.join(STATES).join(increment.to_string());
     let bytes = read_packed(&path, FIRST_LINE)?;
     postcard::from_bytes(&bytes).map_err(|_| format!("{}: damaged", path.display()))
+}
+
+/// What the solver remembers at the end of an increment: of the last one of a run of second order.
+pub fn memory_below(results: &Path, increment: usize) -> Result<Option<SolverMemory>, String> {
+    let path = results.join(STATES).join(MEMORY);
+    if !path.exists() {
+        return Ok(None);
+    }
+    let bytes = read_packed(&path, FIRST_LINE)?;
+    let (last, memory): (usize, _) =
+        postcard::from_bytes(&bytes).map_err(|_| format!("{}: damaged", path.display()))?;
+    Ok((last == increment).then_some(memory))
 }
 
 /// The state that the run in the results at `path` started from; none where it started from bodies apart.

@@ -6,7 +6,6 @@ use object::{Object, ObjectSymbol};
 /// that is given to `map` or `from_fn` of an array stays outside when it is long: each operation becomes a call, with its numbers in memory. That
 /// once took a third of the time of most cases, and no test of numbers sees it.
 #[test]
-#[cfg(all(target_arch = "x86_64", target_os = "linux", not(debug_assertions)))]
 fn no_operation_on_wide_numbers_is_a_call() {
     let program = std::fs::read(env!("CARGO_BIN_EXE_fret")).unwrap();
     let file = object::File::parse(&*program).unwrap();

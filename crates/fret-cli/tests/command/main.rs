@@ -5,6 +5,7 @@
 mod answered;
 mod bench;
 mod broken_off;
+#[cfg(all(target_arch = "x86_64", target_os = "linux", not(debug_assertions)))]
 mod compiled;
 mod damaged;
 mod explored;

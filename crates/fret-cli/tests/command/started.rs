@@ -133,6 +133,24 @@ fn kept_increments_of_a_finished_run_can_be_started_from() {
     assert!(refused.err.contains("2, 5, 8, 11, 14, 17, 20, 21"), "{}", refused.err);
 }
 
+/// The second order goes on where a finished run ends, since that keeps what the solver remembers: normal and tangential force that grow together,
+/// the most that it asks of the increments before. By end points of the run, and of the stage before that, where it begins anew.
+#[test]
+fn a_load_that_goes_on_goes_on_from_the_end_of_a_finished_run() {
+    let bench = Bench::new("from-the-end");
+    let both = "[[load]]\nnormal_force = 1.0\ntangential_force = [0.15, 0.05]\nincrements = 5\n";
+    let on = "[[load]]\nnormal_force = 1.6\ntangential_force = [0.24, 0.08]\nincrements = 3\n";
+    solved(&bench, &format!("{HEAD}{both}{on}"), &["whole"]);
+    solved(&bench, &format!("{HEAD}{both}"), &["part"]);
+    solved(&bench, &format!("{HEAD}{on}"), &["--from", "part", "on"]);
+    solved(&bench, &format!("{HEAD}{on}"), &["--from", "whole:4", "anew"]);
+    let [whole, on, anew] =
+        ["whole", "on", "anew"].map(|folder| bench.text(&format!("{folder}/history.csv")));
+    assert_goes_on(&whole, &on);
+    let energy = |table: &str| *column(table, "dissipated_energy").last().unwrap();
+    assert!((energy(&anew) / energy(&whole) - 1.0).abs() > 1e-4);
+}
+
 /// The fields that are asked for do not hold the slip: only the ends of stages do, in a file of their own.
 #[test]
 fn the_end_of_a_stage_can_be_started_from_whatever_fields_are_kept() {

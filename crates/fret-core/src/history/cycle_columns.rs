@@ -46,7 +46,12 @@ pub static CYCLE_COLUMNS: &[Column<CycleRecord>] = &[
         cycle.steady
     }),
     real("worn_volume", "wear volume since the start of the history", VOLUME, |cycle| cycle.worn_volume),
-    real("max_worn_depth", "maximum wear depth after the cycle", LENGTH, |cycle| cycle.max_worn_depth),
+    real(
+        "max_worn_depth",
+        "maximum wear depth of both bodies together; with finite displacement the larger one of the bodies' own, after the cycle",
+        LENGTH,
+        |cycle| cycle.max_worn_depth,
+    ),
     count("last_cycle", "number in its stage of the last cycle it represents, from 1", NO_UNIT, |cycle| {
         cycle.last_cycle
     }),

@@ -8,7 +8,7 @@ use super::cycle::CycleRecord;
 use super::footprint::Footprint;
 use super::warning::Warning;
 use crate::model::{ContactPair, ContactState, Periodicity, SolvedState, SurfaceGrid, WearLayers, Zone};
-use crate::solver::{Regime, Residual, Work, worst};
+use crate::solver::{Regime, Residual, SolverMemory, Work, worst};
 
 /// Debris between the surfaces of the whole contact; nothing where none stays.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -157,6 +157,8 @@ pub struct KeptFields {
     /// What another history needs besides these fields to start here; of every last increment of a stage, and where the fields
     /// are enough.
     pub rest: Option<Box<SolvedState>>,
+    /// What the solver remembers at the end of a history of second order: one that starts here goes on as if it were the same.
+    pub memory: Option<Box<SolverMemory>>,
 }
 
 /// All of a run.

@@ -38,14 +38,16 @@ impl Start {
 
     /// The state of a history at the end of an increment; `None` where what is kept of it is not enough.
     pub fn of(history: &History, increment: usize) -> Option<Self> {
+        let kept = history.fields_of(increment);
+        let memory = kept.and_then(|kept| kept.memory.as_deref().cloned());
         let solved = if history.steps.last()?.increment == increment {
             history.end.clone().completed(|name| history.state.field(name).cloned().ok_or(()))
         } else {
-            let kept = history.fields_of(increment)?;
+            let kept = kept?;
             let rest = kept.rest.as_deref()?.clone();
             rest.completed(|name| kept.field(name).cloned().ok_or(()))
         };
-        Self::new(&history.plan, solved.ok()?, None)
+        Self::new(&history.plan, solved.ok()?, memory)
     }
 
     /// Increments of a history that another one can start from.

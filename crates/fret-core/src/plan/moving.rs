@@ -53,17 +53,18 @@ pub fn in_whole_cells(case: &Case, grid: &SurfaceGrid) -> Result<(), CaseError> 
         let help = "roll along an axis, or on square cells in a direction such as [1, 1], [1, -2], [3, 2]; or turn bodies and creepage";
         return Err(case.refuse_size(message, help));
     }
-    let Some((stage, cells)) = parts_of_cells(case, grid) else { return Ok(()) };
+    let Some((stage, cells, [from_x, from_y])) = parts_of_cells(case, grid) else { return Ok(()) };
     let message = format!(
-        "grid.size: an increment of stage {:?} rolls by {cells:.4} cells; kinematics.frame = \"contact\" moves by whole cells",
+        "grid.size: an increment of stage {:?} rolls by {cells:.4} cells, after [{from_x:?}, {from_y:?}]; kinematics.frame = \"contact\" moves by whole cells",
         case.stages[stage].name
     );
     let help = "roll = a whole number of cells times increments, with grid.size given; or frame = \"bodies\"";
     Err(case.refuse_size(message, help))
 }
 
-/// The first stage an increment of which goes by a part of a cell in the frame of a contact that rolls, and its cells.
-fn parts_of_cells(case: &Case, grid: &SurfaceGrid) -> Option<(usize, f64)> {
+/// The first stage an increment of which goes by a part of a cell in the frame of a contact that rolls, its cells, and the distance rolled
+/// before [length].
+fn parts_of_cells(case: &Case, grid: &SurfaceGrid) -> Option<(usize, f64, [f64; 2])> {
     if case.kinematics.frame != Frame::Contact || !case.rolls() {
         return None;
     }
@@ -75,10 +76,14 @@ fn parts_of_cells(case: &Case, grid: &SurfaceGrid) -> Option<(usize, f64)> {
             for axis in grid.dimension().axes() {
                 let cells = (load.roll[axis] - held.roll[axis]) / grid.spacing()[axis];
                 if (cells - cells.round()).abs() > 1e-6 {
-                    return Some((number, cells));
+                    return Some((number, cells, held.roll));
                 }
             }
             held.roll = load.roll;
+        }
+        // The increment that a steady state is told by goes one step.
+        if let Some(step) = step_towards(stage.roll_direction, grid.spacing()).filter(|_| stage.steady) {
+            held.roll = [0, 1].map(|axis| held.roll[axis] + step[axis] as f64 * grid.spacing()[axis]);
         }
     }
     None

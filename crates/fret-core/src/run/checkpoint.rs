@@ -258,14 +258,8 @@ impl Checkpoint {
         let underway = checkpoint.underway();
         let state = checkpoint.state.clone();
         let solved = symmetry.whole_solved(solved_state(&checkpoint.place, state, underway));
-        let Self { memory, wear, upper_wear, debris, .. } = &checkpoint;
-        let slips = |wear: &Collected| debris.is_some() && wear.path().iter().any(|path| *path != 0.0);
-        // What an unfinished cycle has worn opens the gap, and the solver remembers another one; so it does of thinner layers, whose
-        // thickness another history finds for itself.
-        let same_gap =
-            wear.as_ref().is_none_or(|wear| wear.is_empty() && wear.thinned() == [0.0; 2] && !slips(wear))
-                && upper_wear.as_ref().is_none_or(Collected::is_empty);
-        Start::new(plan, solved, same_gap.then(|| memory.clone())).ok_or(CheckpointError::Foreign)
+        let memory = underway.leaves_the_gap().then(|| checkpoint.memory.clone());
+        Start::new(plan, solved, memory).ok_or(CheckpointError::Foreign)
     }
 
     /// What slip has done since the surfaces changed last.

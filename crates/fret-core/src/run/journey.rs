@@ -169,6 +169,10 @@ impl<'a> Journey<'a> {
         self.place.solved_of_stage = k;
         if let Some(kept) = &mut kept {
             kept.rest = self.rest_beside(kept, last).map(Box::new);
+            let is_end = last && (self.place.worn_out || number + 1 == self.case().stages.len());
+            let memory = self.solver.memory();
+            let goes_on = is_end && memory.knows_slip() && self.surfaces.underway().leaves_the_gap();
+            kept.memory = goes_on.then(|| Box::new(memory.clone()));
         }
         self.gauge.add(&record);
         let reached = MirroredState { part: &self.state, symmetry: self.plan.symmetry };

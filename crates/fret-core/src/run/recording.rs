@@ -103,6 +103,7 @@ pub fn kept(
         Array2::zeros([0, 0])
     };
     Ok(KeptFields {
+        memory: None,
         increment,
         pressure: one("pressure", &state.pressure)?,
         shear: two("shear", &state.shear)?,

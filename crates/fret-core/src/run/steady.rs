@@ -132,7 +132,9 @@ impl Rolling {
                 add_scaled(&mut change, -1.0, &from);
                 let size = norm(&to);
                 off = if size > 0.0 { norm(&change) / size } else { 0.0 };
-                let leaves = (off / off_before).clamp(LEAVES[0], LEAVES[1]);
+                // nothing is left of nothing
+                let leaves =
+                    if off > 0.0 { (off / off_before).clamp(LEAVES[0], LEAVES[1]) } else { LEAVES[0] };
                 let left = if is_last { off * leaves / (1.0 - leaves) } else { off };
                 off_before = off;
                 if left <= enough && !(is_last && is_rough) {

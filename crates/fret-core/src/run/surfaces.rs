@@ -35,6 +35,17 @@ pub(crate) struct Underway<'a> {
     pub slip: Option<&'a CollectedSlip>,
 }
 
+impl Underway<'_> {
+    /// Whether the gap is that of the surfaces as they are told. What an unfinished cycle has worn opens it, and the solver remembers another one;
+    /// so it does of thinner layers, whose thickness another history finds for itself.
+    pub fn leaves_the_gap(&self) -> bool {
+        let slips = |wear: &Collected| self.debris.is_some() && wear.path().iter().any(|path| *path != 0.0);
+        let [wear, upper] = self.wear;
+        wear.is_none_or(|wear| wear.is_empty() && wear.thinned() == [0.0; 2] && !slips(wear))
+            && upper.is_none_or(Collected::is_empty)
+    }
+}
+
 /// A block of equal cycles that is over.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Block {

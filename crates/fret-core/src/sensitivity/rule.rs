@@ -9,8 +9,8 @@ use crate::fields::{Scalar, Slopes, length_of};
 use crate::model::controls::FREEDOMS;
 use crate::model::{Integration, Zone};
 use crate::solver::{
-    ContactSet, Edge, Pace, SlipOfEdge, Then, moment_of_touch, pace_of, path_after_slip, turn_after_stick,
-    way_to_touch,
+    ContactSet, Edge, Ends, Pace, SlipOfEdge, Then, moment_of_touch, pace_of, path_after_slip,
+    turn_after_stick, way_to_touch,
 };
 
 /// Derivatives by the changes of the loads in the last increment, and in this one.
@@ -142,7 +142,8 @@ impl Rule {
             rule.go_on(pace, [before, former], (contact, zones));
         }
         if let (Some(ratio), true) = (pace.edge, before.went_on()) {
-            rule.enter((pace.loads, ratio), [before, former], contact);
+            let ends = scene.plan.case.periodic.axes().map(|repeats| Ends::of(false, repeats));
+            rule.enter((pace.loads, ratio), [before, former], (contact, ends));
         }
         rule
     }
@@ -198,8 +199,13 @@ impl Rule {
     }
 
     /// Offsets of cells that were open.
-    fn enter(&mut self, (loads, ratio): (f64, f64), [before, former]: [&Solved; 2], contact: &ContactSet) {
-        let edge = Edge { before: &former.gap, now: &before.gap, ratio };
+    fn enter(
+        &mut self,
+        (loads, ratio): (f64, f64),
+        [before, former]: [&Solved; 2],
+        (contact, ends): (&ContactSet, [Ends; 2]),
+    ) {
+        let edge = Edge { before: &former.gap, now: &before.gap, ratio, ends };
         let [_, columns] = before.shape();
         let place_of = |cell: usize| [cell / columns, cell % columns];
         let number = |[i, j]: [usize; 2]| i * columns + j;

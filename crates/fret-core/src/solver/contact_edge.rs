@@ -2,13 +2,11 @@
 //! Near the edge of a contact of half-spaces both `p^2` inside and `gap^(2/3)` outside are linear in the distance to it; on layers much
 //! thinner than a cell, which answer like a foundation of springs, `p` and `gap` are.
 
-mod ends;
-
 use std::array::from_fn;
 
 use ndarray::{Array2, ArrayView1, ArrayView2};
 
-pub use ends::Ends;
+use super::ends::Ends;
 
 /// The zero line of half-spaces lies this share of a cell inside the true edge (measured on Hertz contacts, confirmed on coated ones).
 const OFFSET: f64 = 0.024;

@@ -3,7 +3,8 @@
 
 use ndarray::Array2;
 
-use super::contact_edge::{Ends, NEAR, contact_cells};
+use super::contact_edge::{NEAR, contact_cells};
+use super::ends::Ends;
 use super::increment_problem::Solved;
 use super::region::Region;
 use super::{ContactSolver, Coupling, SolveError};
@@ -71,9 +72,8 @@ impl ContactSolver<'_> {
         let region = region.widened([0, 1].map(|axis| if repeats[axis] { cells[axis] } else { NEAR }), cells);
         let [pressure, gap] = [pressure, gap].map(|field| region.view(field));
         let beyond = self.beyond_the_body();
-        // At a mirror the edge goes on as it does at a side of the region: with the same value in the next cell.
-        let axes = self.symmetry.axes();
-        let ends = [0, 1].map(|axis| Ends::of(axes[axis] && region.origin[axis] == 0, repeats[axis]));
+        let of_grid = self.ends();
+        let ends = [0, 1].map(|axis| if region.origin[axis] == 0 { of_grid[axis] } else { Ends::Open });
         let cells = contact_cells(&pressure, &gap, beyond, ends);
         let cells = cells * self.symmetry.copies() as f64;
         cells * self.grid.cell_area()
@@ -84,6 +84,12 @@ impl ContactSolver<'_> {
         let [cells_x, cells_y] = self.symmetry.whole_of(self.grid.cells());
         let [dx, dy] = self.grid.spacing();
         0.5 * BEYOND_THE_BODY * (cells_x as f64 * dx).hypot(cells_y as f64 * dy)
+    }
+
+    /// What lies beyond the first and the last cells of the grid.
+    pub(super) fn ends(&self) -> [Ends; 2] {
+        let (mirrored, repeats) = (self.symmetry.axes(), self.repeats());
+        [0, 1].map(|axis| Ends::of(mirrored[axis], repeats[axis]))
     }
 
     /// Whether the contact repeats along x and along y.

@@ -142,7 +142,8 @@ impl ContactSolver<'_> {
             if let Some(pace) = pace {
                 let beyond =
                     |before: &Before, drift: &Drift| increment.drift_to_here(before, drift, &mut operators);
-                increment.path = slip_path(&self.memory, state, (pace, region), beyond).unwrap_or_default();
+                increment.path =
+                    slip_path(&self.memory, state, (pace, region, self.ends()), beyond).unwrap_or_default();
             }
             self.solve_to_hardness(&mut operators, (&mut increment, &before, yields), tractions, callback)
         };

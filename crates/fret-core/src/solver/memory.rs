@@ -28,6 +28,13 @@ pub struct SolverMemory {
     pub(super) last_cycle: LastCycle,
 }
 
+impl SolverMemory {
+    /// Whether the next increment may go on from the slip of the last one.
+    pub fn knows_slip(&self) -> bool {
+        self.last.as_ref().is_some_and(|last| last.drift.region.is_some())
+    }
+}
+
 /// The state before the last one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Before {

@@ -12,6 +12,7 @@ mod contact_problem;
 mod contact_set;
 mod contact_vector;
 mod coupled;
+mod ends;
 mod energy;
 #[cfg(test)]
 mod few_cells;
@@ -61,6 +62,7 @@ use crate::model::{
 
 pub(crate) use contact_set::ContactSet;
 pub(crate) use contact_vector::ContactVector;
+pub(crate) use ends::Ends;
 pub(crate) use last_cycle::NUMBERS as NUMBERS_OF_CYCLE;
 pub(crate) use laws::complementarity::yields_from;
 pub(crate) use laws::friction::{

@@ -2,6 +2,7 @@
 
 use ndarray::Array2;
 
+use super::ends::Ends;
 use crate::fields::Scalar;
 use crate::model::Zone;
 
@@ -16,6 +17,8 @@ pub struct Edge<'a, R> {
     pub now: &'a Array2<R>,
     /// Length of the next increment over the last, in the normal load.
     pub ratio: R,
+    /// What lies beyond the first and the last cells of both axes.
+    pub ends: [Ends; 2],
 }
 
 impl<R: Scalar> Edge<'_, R> {
@@ -27,15 +30,11 @@ impl<R: Scalar> Edge<'_, R> {
         moment_of_touch([self.before[at], self.now[at]], self.ratio)
     }
 
-    fn neighbours(&self, [i, j]: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
+    /// The four next cells; an outermost cell is its own neighbour where there is none.
+    fn neighbours(&self, [i, j]: [usize; 2]) -> [[usize; 2]; 4] {
         let (nx, ny) = self.now.dim();
-        let all = [
-            (i > 0, i.wrapping_sub(1), j),
-            (i + 1 < nx, i + 1, j),
-            (j > 0, i, j.wrapping_sub(1)),
-            (j + 1 < ny, i, j + 1),
-        ];
-        all.into_iter().filter(|(exists, ..)| *exists).map(|(_, i, j)| [i, j])
+        let ([left, _, right], [below, _, above]) = (self.ends[0].around(i, nx), self.ends[1].around(j, ny));
+        [[left, j], [right, j], [i, below], [i, above]]
     }
 }
 
@@ -88,7 +87,7 @@ impl<'a, R: Scalar> SlipOfEdge<'a, R> {
             let ours = height(here);
             let nearer = edge.neighbours(here).map(|next| (next, ours - height(next)));
             let (mut slid, mut weights, known) = ([R::of(0.0); 2], R::of(0.0), waiting.len());
-            for (next, weight) in nearer.filter(|(_, weight)| weight.value() > 0.0) {
+            for (next, weight) in nearer.into_iter().filter(|(_, weight)| weight.value() > 0.0) {
                 let there = if zones[next] == Zone::Open { found[next] } else { Some(slip_of(next)) };
                 match there {
                     Some(there) => {
@@ -122,7 +121,7 @@ impl SlipOfEdge<'_, f64> {
         let of = |(cell, slip)| {
             let nearer = self.edge.neighbours(cell);
             let weight = |next: [usize; 2]| (next, self.distances[cell] - self.distances[next]);
-            let nearer = nearer.map(weight).filter(|(_, weight)| *weight > 0.0).collect();
+            let nearer = nearer.into_iter().map(weight).filter(|(_, weight)| *weight > 0.0).collect();
             MeanOfNearer { cell, slip, nearer }
         };
         let mut means: Vec<MeanOfNearer> = found.map(of).collect();
@@ -150,7 +149,8 @@ mod tests {
         let gap =
             |edge: f64| Array2::from_shape_fn((12, 1), |(i, _)| 7.0 * (i as f64 - edge).max(0.0).powf(1.5));
         let moment = |before: f64, now: f64, ratio: f64, cell: usize| {
-            Edge { before: &gap(before), now: &gap(now), ratio }.moment_of_touch([cell, 0])
+            Edge { before: &gap(before), now: &gap(now), ratio, ends: [Ends::Open; 2] }
+                .moment_of_touch([cell, 0])
         };
         assert!((moment(2.1, 5.1, 1.0, 6) - 0.3).abs() < 1e-14);
         assert!((moment(2.1, 5.1, 0.5, 6) - 0.6).abs() < 1e-14);
@@ -193,7 +193,7 @@ mod tests {
             (x.hypot(y) - 15.0).max(0.0).powf(1.5)
         });
         let zones = gap.map(|gap| if *gap > 0.0 { Zone::Open } else { Zone::Slip });
-        let edge = Edge { before: &gap, now: &gap, ratio: 1.0 };
+        let edge = Edge { before: &gap, now: &gap, ratio: 1.0, ends: [Ends::Open; 2] };
         let radial = |at: [usize; 2]| {
             let [x, y] = from(at);
             [x / x.hypot(y), y / x.hypot(y)]

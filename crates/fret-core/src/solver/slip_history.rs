@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use ndarray::Array2;
 
+use super::ends::Ends;
 use super::laws::slip_path::{SlipPath, path_that_goes_on, turn_that_begins};
 use super::memory::{Before, Drift, SolverMemory};
 use super::moving_edge::{Edge, SlipOfEdge, left_of_lag};
@@ -49,6 +50,8 @@ pub struct Recent<'a, R> {
     pub shear: [Vec<R>; 2],
     /// Gap on the grid before the last increment, and after it [length].
     pub gaps: Option<[&'a Array2<R>; 2]>,
+    /// What lies beyond the first and the last cells of the grid.
+    pub ends: [Ends; 2],
 }
 
 /// The paths in the cells of a region: the vectors t, the offsets a and the moments of touch of [`SlipPath`].
@@ -64,7 +67,7 @@ pub struct Paths<R> {
 pub fn slip_path(
     memory: &SolverMemory,
     state: &ContactState,
-    (pace, region): (Pace, Region),
+    (pace, region, ends): (Pace, Region, [Ends; 2]),
     beyond: impl FnOnce(&Before, &Drift) -> TangentialField,
 ) -> Option<SlipPath> {
     let last = memory.last.as_ref()?;
@@ -84,6 +87,7 @@ pub fn slip_path(
         then,
         shear: [0, 1].map(|axis| region.gather(&state.shear[axis])),
         gaps: before.and_then(|before| Some([before.gap.as_ref()?, &last.gap])),
+        ends,
     };
     let was_inside = |[i, j]: [usize; 2]| last.drift.region.is_some_and(|then| then.contains(i, j));
     let wide =
@@ -139,7 +143,8 @@ impl<R: Scalar + Send + Sync> Recent<'_, R> {
                 set(&mut paths.turn, cell, turn);
             }
         }
-        let edge = self.gaps.zip(pace.edge).map(|([before, now], ratio)| Edge { before, now, ratio });
+        let edge = self.gaps.zip(pace.edge);
+        let edge = edge.map(|([before, now], ratio)| Edge { before, now, ratio, ends: self.ends });
         if let Some(edge) = edge {
             self.enter((pace, &edge), grid_zones, (was_inside, wide), &mut paths);
         }
