@@ -220,3 +220,46 @@ fn stresses_that_a_case_does_not_have_are_refused() {
     let plan = planned(&Written { text: &bare, numbers: &NUMBERS }.case(None));
     assert!(message(&plan, "stress.interface_shear").contains("no coating"));
 }
+
+/// Residual stress moves no surface and adds to the stress: of hydrostatic tension it counts a third along each axis, of what lies in another layer
+/// nothing, exactly; of all else against differences of whole runs, with the noise of these.
+#[test]
+fn residual_stress_is_a_number_of_stresses_alone() {
+    let text = COATED
+        .replace("shear_stiffness = <ks> } }]", "shear_stiffness = <ks> }, residual_stress = [<sx>, <sy>] }]")
+        .replace("poisson = 0.3 }", "poisson = 0.3, residual_stress = <sb> }")
+        .replace("<stress>", &format!("depths = [0.0, 0.1, 0.2]\n{CONSTANTS}"));
+    let mut numbers = NUMBERS.to_vec();
+    numbers.extend([
+        ("sx", -0.05, "lower.coatings[0].residual_stress[0]"),
+        ("sy", 0.02, "lower.coatings[0].residual_stress[1]"),
+        ("sb", 0.03, "lower.substrate.residual_stress"),
+    ]);
+    let of: Vec<String> =
+        ["stress.von_mises", "stress.tension", "stress.hydrostatic", "cycles[0].fatigue.crossland"]
+            .map(str::to_owned)
+            .to_vec();
+    let off = worst(&text, &numbers, &of, 1e-5);
+    assert!(off < 1e-5, "{off:e}");
+    let by: Vec<&str> = numbers[10..].iter().map(|(_, _, path)| *path).collect();
+    let of = ["stress.hydrostatic", "max_pressure", "stress.tension"].map(str::to_owned);
+    let plan_at = |depths: &str| {
+        let text = text.replace("[0.0, 0.1, 0.2]", depths);
+        planned(&Written { text: &text, numbers: &numbers }.case(None))
+    };
+    for (depths, thirds) in [("[0.0, 0.1, 0.2]", [1.0, 1.0, 0.0]), ("[0.5, 0.6]", [0.0, 0.0, 2.0])] {
+        let found = along(&plan_at(depths), &of, &by, Direction::Backward);
+        for (by, thirds) in found.gradients[0].by.iter().zip(thirds) {
+            assert!((by - thirds / 3.0).abs() < 1e-14, "{depths}: {by}");
+        }
+        assert_eq!(found.gradients[1].by, [0.0; 3]);
+        let counts = found.gradients[2].by.iter().map(|by| *by != 0.0);
+        assert!(counts.eq(thirds.map(|thirds| thirds != 0.0)), "{:?}", found.gradients[2].by);
+    }
+    // The table of all numbers has them.
+    let request = Request { of: of.to_vec(), by: Vec::new(), direction: None };
+    let all = gradient(&plan_at("[0.0]"), &request, &mut Silent).unwrap();
+    for path in by {
+        assert_eq!(all.parameters.iter().filter(|known| known.path() == path).count(), 1, "{path}");
+    }
+}

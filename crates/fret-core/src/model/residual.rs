@@ -33,27 +33,41 @@ impl ResidualStress {
 
     /// Stress along x and y at a depth seen from a layer of the body [pressure].
     pub fn at(&self, half_space: &HalfSpace, layer: usize, depth: f64) -> [f64; 2] {
-        self.named(half_space, layer).map_or([0.0; 2], |named| named.at(depth - named.top))
+        self.layer(half_space, layer).map_or([0.0; 2], |named| named.at(depth - named.top))
     }
 
     /// How that changes with the depth below the upper face of the layer [pressure/length].
     pub fn slope(&self, half_space: &HalfSpace, layer: usize, depth: f64) -> [f64; 2] {
-        self.named(half_space, layer).map_or([0.0; 2], |named| named.slope(depth - named.top))
+        self.layer(half_space, layer).map_or([0.0; 2], |named| named.slope(depth - named.top))
     }
 
-    /// The named layer that holds one of the half-space.
-    fn named(&self, half_space: &HalfSpace, layer: usize) -> Option<&ResidualLayer> {
+    fn layer(&self, half_space: &HalfSpace, layer: usize) -> Option<&ResidualLayer> {
+        self.named(half_space, layer).map(|named| &self.layers[named])
+    }
+
+    /// The layers as a case names them, from the surface down; none where there is no residual stress.
+    pub fn layers(&self) -> &[ResidualLayer] {
+        &self.layers
+    }
+
+    /// Which of them holds a layer of the half-space.
+    pub fn named(&self, half_space: &HalfSpace, layer: usize) -> Option<usize> {
         // A graded coating is many layers of the half-space: the one that is named holds the middle of each.
         let above: f64 = half_space.coatings().iter().take(layer).map(Coating::thickness).sum();
         let middle = half_space
             .coatings()
             .get(layer)
             .map_or(f64::INFINITY, |coating| above + 0.5 * coating.thickness());
-        self.layers.iter().rev().find(|named| named.top <= middle)
+        self.layers.iter().rposition(|named| named.top <= middle)
     }
 }
 
 impl ResidualLayer {
+    /// Stress along x and y, where it is the same in all its depth [pressure].
+    pub fn even(&self) -> Option<[f64; 2]> {
+        if let [(_, stress)] = self.rows[..] { Some(stress) } else { None }
+    }
+
     fn at(&self, depth: f64) -> [f64; 2] {
         let (Some(first), Some(last)) = (self.rows.first(), self.rows.last()) else { return [0.0; 2] };
         if depth <= first.0 {

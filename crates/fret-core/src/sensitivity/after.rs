@@ -1,6 +1,7 @@
 //! From the solution of an increment's linear equations to all that it leaves behind, and back.
 
 use super::cell::MOTIONS;
+use super::cell_rows::sums_with;
 use super::change::{Change, Solution, add};
 use super::contact::Drive;
 use super::energies::{Energies, Inputs, Outputs};
@@ -66,11 +67,12 @@ impl<'a> After<'a> {
         next.shear = [x.clone(), y.clone()];
         next.motions = solution.motions;
         let [normal, along_x, along_y] = &solution.displacements;
-        for (cell, place) in scene.places.iter().enumerate() {
+        for cell in 0..scene.region.len() {
+            let place = scene.place(cell);
             let worn = before.worn.get(cell).copied().unwrap_or(0.0);
-            next.gap[cell] = drive.gap[cell] + worn + normal[cell] - deep_by(&solution.motions, *place);
+            next.gap[cell] = drive.gap[cell] + worn + normal[cell] - deep_by(&solution.motions, place);
             if scene.is_frictional() {
-                let [x, y] = moved_by(&solution.motions, *place);
+                let [x, y] = moved_by(&solution.motions, place);
                 next.slid[0][cell] = x - along_x[cell];
                 next.slid[1][cell] = y - along_y[cell];
                 for axis in 0..2 {
@@ -147,34 +149,26 @@ impl<'a> After<'a> {
             let mut to = Outputs { before, next, solution: &mut solution, paths, friction };
             self.energies.transposed(energies, &mut to);
         }
-        let any_force = forces != [0.0; 6];
-        for (cell, place) in scene.places.iter().enumerate() {
-            let [x, y] = *place;
-            let gap = next.gap[cell];
-            drive.gap[cell] += gap;
-            if let Some(worn) = before.worn.get_mut(cell) {
-                *worn += gap;
+        add_scaled(&mut drive.gap, 1.0, &next.gap);
+        if !before.worn.is_empty() {
+            add_scaled(&mut before.worn, 1.0, &next.gap);
+        }
+        add_scaled(&mut solution.displacements[0], 1.0, &next.gap);
+        let mut signs = [-1.0, -1.0, -1.0, 0.0, 0.0, 0.0];
+        if scene.is_frictional() {
+            signs[3..].fill(1.0);
+            for axis in 0..2 {
+                add_scaled(&mut before.slid[axis], -1.0, &next.drift[axis]);
+                add_scaled(&mut next.slid[axis], 1.0, &next.drift[axis]);
+                add_scaled(&mut solution.displacements[1 + axis], -1.0, &next.slid[axis]);
             }
-            solution.displacements[0][cell] += gap;
-            let mut slid = [0.0; 2];
-            if scene.is_frictional() {
-                for axis in 0..2 {
-                    before.slid[axis][cell] -= next.drift[axis][cell];
-                    slid[axis] = next.slid[axis][cell] + next.drift[axis][cell];
-                    solution.displacements[1 + axis][cell] -= slid[axis];
-                }
-            }
-            let modes = [-gap, -gap * x, -gap * y, slid[0], slid[1], slid[1] * x - slid[0] * y];
-            for (motion, mode) in next.motions.iter_mut().zip(modes) {
-                *motion += mode;
-            }
-            if any_force {
-                for (lever, force) in scene.levers(cell).into_iter().zip(forces) {
-                    for part in 0..3 {
-                        solution.tractions[part][cell] += lever[part] * force;
-                    }
-                }
-            }
+        }
+        let sums = sums_with(&scene.places, [&next.gap, &next.slid[0], &next.slid[1]]);
+        for ((motion, sum), sign) in next.motions.iter_mut().zip(sums).zip(signs) {
+            *motion += sign * sum;
+        }
+        if forces != [0.0; 6] {
+            scene.add_resultants(forces, &mut solution.tractions);
         }
         solution.motions = next.motions;
         add_scaled(&mut solution.tractions[0], 1.0, &next.pressure);

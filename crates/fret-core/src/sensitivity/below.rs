@@ -8,7 +8,7 @@ use super::bodies::changes_of;
 use super::error::SensitivityError;
 use super::field_weights::FieldWeights;
 use super::objective::Column;
-use super::parameter::{BodyNumber, Parameter};
+use super::parameter::{BodyNumber, Parameter, ResidualNumber};
 use super::scene::Scene;
 use super::snapshot::Snapshot;
 use crate::case::Side;
@@ -138,8 +138,9 @@ impl<'a> Largest<'a> {
             }
         }
         let of_upper = self.beneath.side == Side::Upper;
-        let by = parameters.iter().map(|parameter| match parameter.of_body() {
-            Some(number) if number.of_upper == of_upper => self.by_constant(number),
+        let by = parameters.iter().map(|parameter| match (parameter.of_body(), parameter.of_residual()) {
+            (Some(number), _) if number.of_upper == of_upper => self.by_constant(number),
+            (_, Some(number)) if number.of_upper == of_upper => Ok(self.by_residual(number)),
             _ => Ok(0.0),
         });
         Ok(Below { value: self.found.value, columns, by: by.collect::<Result<_, _>>()? })
@@ -163,6 +164,18 @@ impl<'a> Largest<'a> {
             sums[1..].iter_mut().for_each(|sum| sum.mapv_inplace(|by| -by));
         }
         sums
+    }
+
+    /// The derivative by a residual stress, which moves no surface.
+    fn by_residual(&self, number: ResidualNumber) -> f64 {
+        let Self { beneath, found, cells, surfaces, .. } = self;
+        let residual = &beneath.surfaces[surfaces[0]].even.residual;
+        if residual.named(beneath.half_space, found.point.layer) != Some(number.named) {
+            return 0.0;
+        }
+        let [xx, yy] = number.along.map(|acts| f64::from(u8::from(acts)));
+        let even = StressTensor([xx, yy, 0.0, 0.0, 0.0, 0.0]);
+        cells.iter().flat_map(|(_, by)| by).map(|by| by.times(&even)).sum()
     }
 
     /// The derivative by a constant of the body while the tractions stay.

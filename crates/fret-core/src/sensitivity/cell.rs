@@ -43,19 +43,6 @@ impl Cell {
     pub fn row(&self) -> Option<[f64; 2]> {
         if let Shear::Turns { row, .. } = self.shear { Some(row) } else { None }
     }
-
-    /// Normal displacement and tangential displacement by a unit of each motion.
-    pub fn modes(&self) -> [[f64; 3]; MOTIONS] {
-        let [x, y] = self.place;
-        [[1.0, 0.0, 0.0], [x, 0.0, 0.0], [y, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, -y, x]]
-    }
-
-    /// Displacement by motions.
-    pub fn moved(&self, motions: &[f64; MOTIONS]) -> [f64; 3] {
-        let [x, y] = self.place;
-        let [approach, tilt_x, tilt_y, shift_x, shift_y, turned] = *motions;
-        [approach + tilt_x * x + tilt_y * y, shift_x - turned * y, shift_y + turned * x]
-    }
 }
 
 /// What is prescribed of a motion.

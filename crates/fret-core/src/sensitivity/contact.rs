@@ -7,7 +7,7 @@ use super::loads::Load;
 use super::rule::{PathChange, Rule};
 use super::scene::{MOTION_OF, Scene};
 use super::solved::{Solved, at};
-use crate::fields::{Slopes, length};
+use crate::fields::{Slopes, dot, length};
 use crate::model::{Control, CoulombFriction, Zone};
 use crate::solver::{ContactSet, FrictionLaw, end_of_chord};
 
@@ -15,9 +15,10 @@ use crate::solver::{ContactSet, FrictionLaw, end_of_chord};
 pub(super) struct Contact<'a> {
     pub set: &'a ContactSet,
     pub cells: Vec<Cell>,
-    /// Friction bound [pressure], its derivatives by coefficient and strength.
+    /// Friction bound [pressure].
     pub bounds: Vec<f64>,
-    by_friction: Vec<[f64; 2]>,
+    /// Shear that follows the bound, by coefficient and strength, along x and y; packed.
+    by_friction: [Tangential; 2],
     /// Derivative of the slip at the end of the increment, across the shear, by the turn.
     by_turn: Vec<[f64; 2]>,
     pub prescribed: [Prescribed; MOTIONS],
@@ -76,7 +77,7 @@ impl<'a> Contact<'a> {
             set: &now.contact,
             cells: Vec::with_capacity(cells),
             bounds: Vec::with_capacity(cells),
-            by_friction: Vec::with_capacity(cells),
+            by_friction: [(); 2].map(|()| [vec![0.0; cells], vec![0.0; cells]]),
             by_turn: Vec::with_capacity(cells),
             prescribed,
             amounts,
@@ -90,13 +91,18 @@ impl<'a> Contact<'a> {
             let slips = now.zone_of(cell) == Zone::Slip;
             let (found, by_turn) = cell_of(
                 scene,
-                (slips, scene.places[cell]),
+                (slips, scene.place(cell)),
                 (now.shear_at(cell), [bound, slope]),
                 (chord, turn),
             );
+            let by_number = bound_by_friction((law, scene.region.at(cell)), pressure);
+            for (by, number) in contact.by_friction.iter_mut().zip(by_number) {
+                for (by, along) in by.iter_mut().zip(found.along) {
+                    by[place] = number * along;
+                }
+            }
             contact.cells.push(found);
             contact.bounds.push(bound);
-            contact.by_friction.push(bound_by_friction((law, scene.region.at(cell)), pressure));
             contact.by_turn.push(by_turn);
         }
         contact
@@ -183,11 +189,11 @@ impl<'a> Contact<'a> {
     /// Shear that follows a change of the friction bound, whatever else changes, on all cells of a region of so many.
     pub fn given(&self, friction: [f64; 2], region: usize) -> Tangential {
         let mut given = [vec![0.0; region], vec![0.0; region]];
-        for ((place, cell), does) in self.set.cells().enumerate().zip(&self.cells) {
-            let by = self.by_friction[place];
-            let bound = by[0] * friction[0] + by[1] * friction[1];
+        let [coefficient, strength] = &self.by_friction;
+        for (place, cell) in self.set.cells().enumerate() {
             for axis in 0..2 {
-                given[axis][cell] = bound * does.along[axis];
+                given[axis][cell] =
+                    coefficient[axis][place] * friction[0] + strength[axis][place] * friction[1];
             }
         }
         given
@@ -195,14 +201,7 @@ impl<'a> Contact<'a> {
 
     /// Backwards: of coefficient and strength, from those of the tractions in the cells of the contact, packed.
     pub fn given_transposed(&self, [_, x, y]: &Fields) -> [f64; 2] {
-        let mut friction = [0.0; 2];
-        for (place, does) in self.cells.iter().enumerate() {
-            let along = does.along[0] * x[place] + does.along[1] * y[place];
-            for (friction, by) in friction.iter_mut().zip(self.by_friction[place]) {
-                *friction += by * along;
-            }
-        }
-        friction
+        self.by_friction.each_ref().map(|[along_x, along_y]| dot(along_x, x) + dot(along_y, y))
     }
 }
 

@@ -173,7 +173,7 @@ impl<'a> Energies<'a> {
         let (mut work, mut slipped) = (0.0, 0.0);
         for cell in self.pressed() {
             let (tractions, slip, opened) = self.means(cell);
-            let place = self.scene.places[cell];
+            let place = self.scene.place(cell);
             let pressure = 0.5 * (before.pressure[cell] + next.pressure[cell]);
             let shear = [0, 1].map(|axis| 0.5 * (before.shear[axis][cell] + next.shear[axis][cell]));
             let (moved, by_change) = (moved_by(&motions, place), moved_by(&change, place));
@@ -249,7 +249,7 @@ impl<'a> Energies<'a> {
         let mut change = [0.0; MOTIONS];
         for cell in self.pressed() {
             let (tractions, slip, opened) = self.means(cell);
-            let place = self.scene.places[cell];
+            let place = self.scene.place(cell);
             let moved = moved_by(&motions, place);
             let pressure = 0.5 * (work * deep_by(&motions, place) + unresolved * opened);
             before.pressure[cell] += pressure;

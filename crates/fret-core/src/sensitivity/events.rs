@@ -57,7 +57,7 @@ pub(super) fn cells_near_events(
     };
     let mut cells: Vec<(usize, Zone)> = solved.contact.cells().enumerate().filter_map(other).collect();
     let touches = |(cell, undeformed): (usize, &f64)| {
-        let deep = deep_by(&solved.motions, scene.places[cell]);
+        let deep = deep_by(&solved.motions, scene.place(cell));
         let gap = *undeformed + solved.displacements[0][cell] - deep;
         (solved.zone_of(cell) == Zone::Open && gap < NEAR * own[0] * pressure).then_some((cell, Zone::Slip))
     };

@@ -13,7 +13,7 @@ use super::events::{NearEvents, SideOfEvents, cells_near_events, with_cells};
 use super::increment::{ENOUGH, Increment};
 use super::operators::displacements;
 use super::parameter::Parameter;
-use super::replay::{Replay, zones};
+use super::replay::Replay;
 use super::scene::{Scene, field};
 use super::snapshot::Snapshot;
 use super::solved::Solved;
@@ -156,7 +156,7 @@ pub(super) fn forward(
                 }
                 (course.before.start, course.before.held) = (after.start, after.held);
             }
-            past[0].zone = zones(scene, &step.state());
+            past[0].zone = step.in_region(scene.region).1;
         }
         let changes: Vec<&Change> = courses.iter().map(|course| &course.before).collect();
         if visit((step, &past[0]), &changes).is_break() {

@@ -81,7 +81,7 @@ impl<'a> Increment<'a> {
     ) -> Result<Change, f64> {
         let mut next = self.scene.no_change();
         self.load.forward(before, numbers, &mut next);
-        let paths = self.rule.forward([before, former, &next], self.contact.set);
+        let paths = self.rule.forward([before, former, &next]);
         let asked = self.contact.asked(before, &next, (&paths, drive));
         let solution = if self.contact.cells.is_empty() {
             self.apart(before, &asked, drive)
@@ -107,7 +107,7 @@ impl<'a> Increment<'a> {
         let solution = self.after.transposed(&mut next, before, (&mut paths, drive));
         let asked = self.solve_transposed(equations, &solution, drive, largest)?;
         self.contact.asked_transposed(&asked, [before, &mut next], (&mut paths, drive));
-        self.rule.transposed(paths, [before, former, &mut next], self.contact.set);
+        self.rule.transposed(paths, [before, former, &mut next]);
         self.load.transposed(&next, before, numbers);
         Ok(())
     }
@@ -127,7 +127,8 @@ impl<'a> Increment<'a> {
             for (moved, by_given) in moved.iter_mut().zip(equations.operators.displacements(&given)) {
                 add_scaled(moved, 1.0, &by_given);
             }
-            let follows = equations.resultants(&given.each_ref().map(|field| self.contact.set.packed(field)));
+            let follows =
+                equations.rows.resultants(&given.each_ref().map(|field| self.contact.set.packed(field)));
             for motion in 0..MOTIONS {
                 asked.amounts[motion] -= match self.contact.prescribed[motion] {
                     Prescribed::Motion => 0.0,
@@ -186,7 +187,7 @@ impl<'a> Increment<'a> {
                 Prescribed::Resultant => -amounts[motion],
                 Prescribed::FarEnd(give) => -give * amounts[motion],
             });
-            equations.resultants_transposed(&follow, &mut tractions);
+            equations.rows.add_resultants(follow, &mut tractions);
             let by_friction = self.contact.given_transposed(&tractions);
             for ((friction, by), aside) in drive.friction.iter_mut().zip(by_friction).zip(found.aside) {
                 *friction += by - aside;

@@ -1,7 +1,9 @@
 //! The linear problems of derivatives: by the solver's GMRES, preconditioned from the right; what it leaves over is solved for again until little
 //! enough is left.
 
-use crate::fields::{add_scaled, norm};
+use std::mem;
+
+use crate::fields::{add_scaled, norm, reset};
 use crate::solver::{ContactVector, Gmres};
 
 /// Krylov steps at the most.
@@ -18,7 +20,7 @@ const RIGHT: f64 = 1.5;
 
 /// How many more rounds of the search are believed what they count, in single and in double precision.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Trust([usize; 2]);
+struct Trust([usize; 2]);
 
 impl Trust {
     /// Whether a round is believed.
@@ -35,6 +37,14 @@ impl Trust {
     }
 }
 
+/// What searches leave for those after them: how far they are believed, and memory.
+#[derive(Debug, Default)]
+pub(super) struct Searches {
+    trust: Trust,
+    method: Gmres<f64>,
+    steps: Vec<Step>,
+}
+
 /// A linear problem with an approximate inverse.
 pub(super) trait LinearProblem {
     /// The left side of the equations.
@@ -49,8 +59,8 @@ pub(super) trait LinearProblem {
     fn aside(&self) -> [f64; 2] {
         [0.0; 2]
     }
-    /// How far a search is believed.
-    fn trust(&mut self) -> &mut Trust;
+    /// What searches left.
+    fn searches(&mut self) -> &mut Searches;
 }
 
 /// Unknowns, what they have besides, and the size of the residual that they leave.
@@ -79,14 +89,14 @@ pub(super) fn solve(problem: &mut impl LinearProblem, right: &[f64], allowed: f6
         let (step, counted) = krylov(problem, &left, if hurries { aim.max(SINGLE) } else { aim });
         problem.hurry(false);
         found.add(1.0, &step);
-        if aim >= least && counted <= aim && problem.trust().believes(hurries) {
+        if aim >= least && counted <= aim && problem.searches().trust.believes(hurries) {
             found.left *= counted;
             break;
         }
         found.look(problem, right, &mut left);
         let now = norm(&left);
         if aim >= least {
-            problem.trust().learn(hurries, [counted * found.left, now]);
+            problem.searches().trust.learn(hurries, [counted * found.left, now]);
         }
         // Where single precision does not serve, double precision goes on.
         may_hurry = now < 0.01 * found.left;
@@ -125,6 +135,7 @@ impl Found {
 }
 
 /// What a search adds to the unknowns.
+#[derive(Debug, Default)]
 struct Step {
     unknowns: Vec<f64>,
     aside: [f64; 2],
@@ -133,18 +144,22 @@ struct Step {
 /// One search for the combination of Krylov directions with the least residual, and its relative size as the search counts it.
 fn krylov(problem: &mut impl LinearProblem, right: &[f64], target: f64) -> (Step, f64) {
     let size = norm(right);
-    let mut method = Gmres::<f64>::default();
+    let searches = problem.searches();
+    let (mut method, mut steps) = (mem::take(&mut searches.method), mem::take(&mut searches.steps));
     let first = method.right();
     first.reset(1, right.len());
     first.values_mut().copy_from_slice(right);
     first.scale(1.0 / size);
-    let mut steps: Vec<Step> = Vec::new();
+    let mut used = 0;
     let apply = |from: &ContactVector<f64>, to: &mut ContactVector<f64>| {
-        let mut unknowns = vec![0.0; right.len()];
-        problem.invert(from.values(), &mut unknowns);
-        to.clear_like(from);
-        problem.apply(&unknowns, to.values_mut());
-        steps.push(Step { unknowns, aside: problem.aside() });
+        steps.resize_with(steps.len().max(used + 1), Step::default);
+        let step = &mut steps[used];
+        used += 1;
+        reset(&mut step.unknowns, right.len());
+        problem.invert(from.values(), &mut step.unknowns);
+        to.reset_like(from);
+        problem.apply(&step.unknowns, to.values_mut());
+        step.aside = problem.aside();
     };
     let (amounts, left) = method.solve(apply, (target, MOST_STEPS), &mut ContactVector::default());
     let mut found = Step { unknowns: vec![0.0; right.len()], aside: [0.0; 2] };
@@ -154,6 +169,8 @@ fn krylov(problem: &mut impl LinearProblem, right: &[f64], target: f64) -> (Step
             *aside += size * amount * by;
         }
     }
+    let searches = problem.searches();
+    (searches.method, searches.steps) = (method, steps);
     (found, left)
 }
 
@@ -167,7 +184,7 @@ mod tests {
     struct Dense {
         matrix: Vec<Vec<f64>>,
         aside: f64,
-        trust: Trust,
+        searches: Searches,
     }
 
     impl LinearProblem for Dense {
@@ -185,8 +202,8 @@ mod tests {
         fn aside(&self) -> [f64; 2] {
             [self.aside, 0.0]
         }
-        fn trust(&mut self) -> &mut Trust {
-            &mut self.trust
+        fn searches(&mut self) -> &mut Searches {
+            &mut self.searches
         }
     }
 
@@ -201,7 +218,7 @@ mod tests {
             })
             .collect();
         let known: Vec<f64> = (0..40).map(|_| random.between(-1.0, 1.0)).collect();
-        let mut problem = Dense { matrix, aside: 0.0, trust: Trust::default() };
+        let mut problem = Dense { matrix, aside: 0.0, searches: Searches::default() };
         let mut right = vec![0.0; 40];
         problem.apply(&known, &mut right);
         let [size, aside] = [norm(&right), problem.aside];

@@ -11,9 +11,10 @@
 //! ```
 
 use super::cell::{Cell, MOTIONS, Prescribed, Shear};
+use super::cell_rows::{CellRows, slip_weight};
 use super::error::SensitivityError;
-use super::fields::{Fields, zeros};
-use super::krylov::{LinearProblem, Trust};
+use super::fields::Fields;
+use super::krylov::{LinearProblem, Searches};
 use super::operators::Operators;
 use crate::fields::{add_scaled, solved};
 use crate::solver::{ContactSet, SlipWeights};
@@ -23,8 +24,13 @@ pub(super) struct Linearised<'a> {
     pub(super) operators: &'a mut Operators,
     pub(super) contact: &'a ContactSet,
     pub(super) cells: &'a [Cell],
+    pub(super) rows: CellRows,
     pub(super) prescribed: [Prescribed; MOTIONS],
     pub(super) weights: SlipWeights<f64>,
+    /// Fields before and after an operator, packed: what is in them is nobody's.
+    pub(super) through: [Fields; 2],
+    /// What is left along the surface on the way through the approximate inverse: nobody's, too.
+    pub(super) left: [Vec<f64>; 2],
     /// Influence of a cell on itself, normal and tangential: the unit of the equations [length/pressure].
     pub(super) own: [f64; 2],
     /// What the approximate inverse makes of each motion, and the small matrix of motions against their rows.
@@ -50,12 +56,16 @@ impl<'a> Linearised<'a> {
         operators.prepare(&slip, &mut weights);
         let own = operators.self_influence();
         let own = [own.normal, if own.tangential > 0.0 { own.tangential } else { own.normal }];
+        let rows = CellRows::new(cells, own);
         let mut problem = Self {
             operators,
             contact,
             cells,
             prescribed,
             weights,
+            through: [rows.no_fields(), rows.no_fields()],
+            left: [(); 2].map(|()| vec![0.0; rows.len()]),
+            rows,
             own,
             bordered: Vec::new(),
             schur: [[0.0; MOTIONS]; MOTIONS],
@@ -72,43 +82,12 @@ impl<'a> Linearised<'a> {
         3 * self.cells.len() + MOTIONS
     }
 
-    /// Tractions of unknowns, packed.
-    fn tractions(&self, unknowns: &[f64]) -> Fields {
-        let n = self.cells.len();
-        let mut tractions = zeros(n);
-        let [pressure, x, y] = &mut tractions;
-        for (place, cell) in self.cells.iter().enumerate() {
-            let p = unknowns[place];
-            let [first, second] = [unknowns[n + place], unknowns[2 * n + place]];
-            pressure[place] = p;
-            let (along, across) = (cell.along, cell.across());
-            [x[place], y[place]] = match cell.shear {
-                Shear::Held => [first, second],
-                Shear::HeldAlong(0) => [first, 0.0],
-                Shear::HeldAlong(_) => [0.0, first],
-                Shear::Turns { .. } => [0, 1].map(|axis| cell.slope * p * along[axis] + first * across[axis]),
-                Shear::Follows => along.map(|part| cell.slope * p * part),
-            };
-        }
-        tractions
-    }
-
-    /// Sums of packed tractions that go with the motions.
-    pub fn resultants(&self, [pressure, x, y]: &Fields) -> [f64; MOTIONS] {
-        let mut sums = [0.0; MOTIONS];
-        for (place, cell) in self.cells.iter().enumerate() {
-            let traction = [pressure[place], x[place], y[place]];
-            for (sum, mode) in sums.iter_mut().zip(cell.modes()) {
-                *sum += (0..3).map(|part| mode[part] * traction[part]).sum::<f64>();
-            }
-        }
-        sums
-    }
-
     /// Unknowns of a vector: tractions on all cells of the region [pressure], and motions [length].
     pub fn parted(&self, unknowns: &[f64]) -> (Fields, [f64; MOTIONS]) {
         let n = self.cells.len();
-        let tractions = self.tractions(unknowns).map(|packed| {
+        let mut packed = self.rows.no_fields();
+        self.rows.tractions(unknowns, &mut packed);
+        let tractions = packed.map(|packed| {
             let mut field = vec![0.0; self.region];
             self.contact.scatter(&packed, 1.0, &mut field);
             field
@@ -131,7 +110,7 @@ impl<'a> Linearised<'a> {
                 }
                 Shear::HeldAlong(axis) => right[n + place] = tangential[axis] / self.own[0],
                 Shear::Turns { compliance, .. } => {
-                    right[n + place] = tangential[0] * self.slip_weight(compliance) / self.own[0];
+                    right[n + place] = tangential[0] * slip_weight(compliance, self.own[1]) / self.own[0];
                 }
                 Shear::Follows => {}
             }
@@ -140,11 +119,6 @@ impl<'a> Linearised<'a> {
             right[3 * n + motion] = motions[motion] * self.weight_of(motion);
         }
         right
-    }
-
-    /// Weight of the equation of a cell that slips: then a residual means a traction.
-    pub(super) fn slip_weight(&self, compliance: f64) -> f64 {
-        1.0 / (1.0 + compliance / self.own[1])
     }
 
     /// Weight of the equation of a motion.
@@ -167,72 +141,19 @@ impl<'a> Linearised<'a> {
         }
     }
 
-    /// Left sides of the cells from displacements less motions, packed, and the unknowns.
-    fn cell_rows(&self, [normal, x, y]: &Fields, unknowns: &[f64], to: &mut [f64]) {
-        let n = self.cells.len();
-        let unit = self.own[0];
-        for (place, cell) in self.cells.iter().enumerate() {
-            let moved = [x[place], y[place]];
-            let own = [unknowns[n + place], unknowns[2 * n + place]];
-            to[place] = normal[place] / unit;
-            [to[n + place], to[2 * n + place]] = match cell.shear {
-                Shear::Held => moved.map(|part| part / unit),
-                Shear::HeldAlong(axis) => [moved[axis] / unit, own[1]],
-                Shear::Turns { row, compliance } => {
-                    let turned = row[0] * moved[0] + row[1] * moved[1] + compliance * own[0];
-                    [turned * self.slip_weight(compliance) / unit, own[1]]
-                }
-                Shear::Follows => own,
-            };
-        }
-    }
-
     /// The approximate inverse of the equations of the cells alone.
     fn invert_cells(&mut self, equations: &[f64], unknowns: &mut [f64]) {
-        let n = self.cells.len();
-        let unit = self.own[0];
-        let mut right = zeros(n);
-        for (place, cell) in self.cells.iter().enumerate() {
-            let own = [equations[n + place], equations[2 * n + place]];
-            let [x, y] = match cell.shear {
-                Shear::Held => own.map(|part| part * unit),
-                Shear::HeldAlong(0) => [own[0] * unit, 0.0],
-                Shear::HeldAlong(_) => [0.0, own[0] * unit],
-                Shear::Turns { compliance, .. } => {
-                    cell.across().map(|part| part * own[0] * unit / self.slip_weight(compliance))
-                }
-                Shear::Follows => [0.0; 2],
-            };
-            (right[0][place], right[1][place], right[2][place]) = (equations[place] * unit, x, y);
-        }
-        let [pressure, x, y] = self.operators.removed(&right, &mut self.weights);
-        unknowns[..n].copy_from_slice(&pressure);
-        for (place, cell) in self.cells.iter().enumerate() {
-            let own = [equations[n + place], equations[2 * n + place]];
-            let found = [x[place], y[place]];
-            [unknowns[n + place], unknowns[2 * n + place]] = match cell.shear {
-                Shear::Held => found,
-                Shear::HeldAlong(axis) => [found[axis], own[1]],
-                Shear::Turns { .. } => {
-                    let across = cell.across();
-                    [found[0] * across[0] + found[1] * across[1], own[1]]
-                }
-                Shear::Follows => own,
-            };
-        }
+        let Self { operators, rows, weights, through: [right, found], .. } = self;
+        rows.to_remove(equations, right);
+        operators.removed(right, found, weights);
+        rows.removed(found, equations, unknowns);
     }
 
     /// What motions make of the rows of the cells.
     fn rows_of_motions(&self, amounts: &[f64; MOTIONS]) -> Vec<f64> {
-        let moved = amounts.map(|amount| -amount * self.own[0]);
-        let mut by_motions = zeros(self.cells.len());
-        for (place, cell) in self.cells.iter().enumerate() {
-            for (part, moved) in cell.moved(&moved).into_iter().enumerate() {
-                by_motions[part][place] = moved;
-            }
-        }
-        let mut rows = vec![0.0; self.len()];
-        self.cell_rows(&by_motions, &vec![0.0; self.len()], &mut rows);
+        let (nothing, mut rows) = (vec![0.0; self.len()], vec![0.0; self.len()]);
+        let moved = amounts.map(|amount| amount * self.own[0]);
+        self.rows.equations(&self.rows.no_fields(), moved, &nothing, &mut rows);
         rows
     }
 
@@ -247,7 +168,7 @@ impl<'a> Linearised<'a> {
                 let equations = self.rows_of_motions(&unit);
                 inverse.resize(self.len(), 0.0);
                 self.invert_cells(&equations, &mut inverse);
-                let resultants = self.resultants(&self.tractions(&inverse));
+                let resultants = self.rows.tractions(&inverse, &mut self.through[0]);
                 let (mut own, mut through) = ([0.0; MOTIONS], [0.0; MOTIONS]);
                 self.prescribed_rows([0.0; MOTIONS], &unit, &mut own);
                 self.prescribed_rows(resultants, &[0.0; MOTIONS], &mut through);
@@ -263,17 +184,11 @@ impl<'a> Linearised<'a> {
 impl LinearProblem for Linearised<'_> {
     fn apply(&mut self, unknowns: &[f64], equations: &mut [f64]) {
         let n = self.cells.len();
-        let tractions = self.tractions(unknowns);
-        let motions = std::array::from_fn(|motion| unknowns[3 * n + motion] * self.own[0]);
-        let mut moved = self.operators.moved(&tractions);
-        for (place, cell) in self.cells.iter().enumerate() {
-            let by_motions = cell.moved(&motions);
-            for part in 0..3 {
-                moved[part][place] -= by_motions[part];
-            }
-        }
-        self.cell_rows(&moved, unknowns, equations);
-        let resultants = self.resultants(&tractions);
+        let Self { operators, rows, through: [tractions, moved], own, .. } = self;
+        let resultants = rows.tractions(unknowns, tractions);
+        operators.moved(tractions, moved);
+        let motions = std::array::from_fn(|motion| unknowns[3 * n + motion] * own[0]);
+        rows.equations(moved, motions, unknowns, equations);
         self.prescribed_rows(resultants, &unknowns[3 * n..], &mut equations[3 * n..]);
     }
 
@@ -281,8 +196,8 @@ impl LinearProblem for Linearised<'_> {
         self.operators.hurry(may)
     }
 
-    fn trust(&mut self) -> &mut Trust {
-        &mut self.operators.trust
+    fn searches(&mut self) -> &mut Searches {
+        &mut self.operators.searches
     }
 
     fn invert(&mut self, equations: &[f64], unknowns: &mut [f64]) {
@@ -290,13 +205,15 @@ impl LinearProblem for Linearised<'_> {
         let is_known = |motion: usize| self.prescribed[motion] == Prescribed::Motion;
         let known: [f64; MOTIONS] =
             std::array::from_fn(|motion| if is_known(motion) { equations[3 * n + motion] } else { 0.0 });
-        let mut left = equations.to_vec();
-        if known != [0.0; MOTIONS] {
+        if known == [0.0; MOTIONS] {
+            self.invert_cells(equations, unknowns);
+        } else {
+            let mut left = equations.to_vec();
             add_scaled(&mut left[..3 * n], -1.0, &self.rows_of_motions(&known)[..3 * n]);
+            self.invert_cells(&left, unknowns);
         }
-        self.invert_cells(&left, unknowns);
         unknowns[3 * n..].fill(0.0);
-        let resultants = self.resultants(&self.tractions(unknowns));
+        let resultants = self.rows.tractions(unknowns, &mut self.through[0]);
         let mut through = [0.0; MOTIONS];
         self.prescribed_rows(resultants, &[0.0; MOTIONS], &mut through);
         let right = std::array::from_fn(|motion| equations[3 * n + motion] - through[motion]);

@@ -10,6 +10,7 @@ mod below;
 mod beneath;
 mod bodies;
 mod cell;
+mod cell_rows;
 mod change;
 mod coming;
 mod constants;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::error::SensitivityError;
 use super::fields::{Fields, zeros};
-use super::krylov::Trust;
+use super::krylov::Searches;
 use crate::compliance::{OperatorSet, SelfInfluence, SpectralCompliance, SurfaceCompliance};
 use crate::fields::norm;
 use crate::run::PairCompliance;
@@ -36,8 +36,8 @@ pub(super) struct Operators {
     around: Around,
     /// Whether displacements around the contact are found in single precision, where they can be.
     hurries: bool,
-    /// How far searches are believed.
-    pub trust: Trust,
+    /// What searches leave for those after them.
+    pub searches: Searches,
     work: Counted,
 }
 
@@ -92,7 +92,7 @@ impl Operators {
             compliance,
             around,
             hurries: false,
-            trust: Trust::default(),
+            searches: Searches::default(),
             work: Counted::default(),
         })
     }
@@ -162,32 +162,30 @@ impl Operators {
     }
 
     /// Displacements of tractions in the cells of the contact come to last, both packed over it; in single precision where that is wanted [length].
-    pub fn moved(&mut self, tractions: &Fields) -> Fields {
+    pub fn moved(&mut self, tractions: &Fields, moved: &mut Fields) {
         let Self { made, around, hurries, work, .. } = self;
-        let Around { region, contact, compliance, preconditioner } = around;
+        let Around { region, compliance, preconditioner, .. } = around;
         work.of_linear_problems += 1;
         work.cells += region.len();
-        let mut moved = zeros(contact.len());
         let from = tractions.each_ref().map(Vec::as_slice);
         let mut to = moved.each_mut().map(Vec::as_mut_slice);
         if !made.frictional {
             preconditioner.fields::<f64>().carry(&from[..1], &mut to[..1], [1.0; 2], |from, to| {
                 compliance.normal(from[0], to[0]);
             });
-            return moved;
+            return;
         }
         if let Some(mut single) = hurries.then(|| compliance.full_single()).flatten() {
             let size = from.iter().map(|part| norm(part)).fold(0.0, f64::max);
             let unit = if size > 0.0 { size } else { 1.0 };
             let factors = [unit, unit * single.unit()];
             preconditioner.fields::<f32>().carry(&from, &mut to, factors, |from, to| single.apply(from, to));
-            return moved;
+            return;
         }
         preconditioner.fields::<f64>().carry(&from, &mut to, [1.0; 2], |from, to| {
             let [normal, x, y] = to else { return };
             compliance.full([from[0], from[1], from[2]], [normal, x, y]);
         });
-        moved
     }
 
     /// Finds displacements around the contact in single precision from now on, where that may be and can; says whether it does.
@@ -203,16 +201,18 @@ impl Operators {
     }
 
     /// Tractions that nearly remove displacements, both packed over that contact.
-    pub fn removed(&mut self, [normal, x, y]: &Fields, weights: &mut SlipWeights<f64>) -> Fields {
+    pub fn removed(
+        &mut self,
+        [normal, x, y]: &Fields,
+        [pressure, along_x, along_y]: &mut Fields,
+        weights: &mut SlipWeights<f64>,
+    ) {
         let preconditioner = &mut self.around.preconditioner;
-        let mut tractions = zeros(normal.len());
-        let [pressure, along_x, along_y] = &mut tractions;
         if self.made.frictional {
             preconditioner.all([normal, x, y], [pressure, along_x, along_y], weights);
         } else {
             preconditioner.pressure(normal, pressure, weights);
         }
-        tractions
     }
 
     /// Applications in linear problems, all others, all of them in applications on the grid of the history, and passes of the preconditioner.

@@ -27,6 +27,17 @@ pub(crate) struct BodyNumber {
     pub number: LayerNumber,
 }
 
+/// The residual stress of a layer, the same in all its depth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct ResidualNumber {
+    /// Whether it is one of the upper body.
+    pub of_upper: bool,
+    /// Which layer, as a case names them, from the surface down.
+    pub named: usize,
+    /// Whether it acts along x and along y.
+    pub along: [bool; 2],
+}
+
 /// Which number of a case.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum What {
@@ -44,6 +55,8 @@ enum What {
     Wear,
     /// A constant of a body.
     Body(BodyNumber),
+    /// The residual stress of a layer.
+    Residual(ResidualNumber),
 }
 
 /// A number of a case by which derivatives are taken.
@@ -88,6 +101,9 @@ impl Parameter {
             [("lower", None), ("profile", None), (shape, None), (number, None)] => {
                 shape_number(case, [false, false], shape, number)
             }
+            [(body @ ("upper" | "lower"), None), layer, ("residual_stress", axis)] => {
+                residual(case, body == "upper", layer, axis)
+            }
             [(body @ ("upper" | "lower"), None), ref rest @ ..] => body_number(case, body == "upper", rest),
             _ => Err(FORMS.to_owned()),
         };
@@ -129,6 +145,15 @@ impl Parameter {
                 paths.extend(numbers.map(|number| format!("{name}.coatings[{coating}].{number}")));
             }
             paths.extend(["young", "poisson"].map(|number| format!("{name}.substrate.{number}")));
+        }
+        for (name, residual) in ["lower", "upper"].iter().zip(&case.residual_stress) {
+            for (index, layer) in residual.layers().iter().enumerate() {
+                let is_one = layer.even().is_some_and(|[x, y]| x == y);
+                let axes: &[&str] = if is_one { &[""] } else { &["[0]", "[1]"] };
+                for layer in [format!("coatings[{index}]"), "substrate".to_owned()] {
+                    paths.extend(axes.iter().map(|axis| format!("{name}.{layer}.residual_stress{axis}")));
+                }
+            }
         }
         paths.extend(["normal_stiffness", "tangential_stiffness"].map(|key| format!("rig.{key}")));
         let mut found: Vec<Self> = Vec::new();
@@ -195,6 +220,11 @@ impl Parameter {
     /// Derivative of the wear coefficient.
     pub(super) fn change_of_wear(&self) -> f64 {
         f64::from(u8::from(self.what == What::Wear))
+    }
+
+    /// The residual stress that it is.
+    pub(super) fn of_residual(&self) -> Option<ResidualNumber> {
+        if let What::Residual(number) = self.what { Some(number) } else { None }
     }
 
     /// The constant of a body that it is.
@@ -356,6 +386,37 @@ fn body_number(case: &Case, of_upper: bool, steps: &[Step<'_>]) -> Found {
         _ => return Err(FORMS.to_owned()),
     };
     Ok((What::Body(BodyNumber { of_upper, coating, number }), value))
+}
+
+/// A residual stress: `residual_stress`, which acts along x and y, or that along one of them.
+fn residual(case: &Case, of_upper: bool, (layer, index): Step<'_>, axis: Option<usize>) -> Found {
+    let layers = case.residual_stress[usize::from(of_upper)].layers();
+    let body = if of_upper { case.bodies.upper() } else { case.bodies.lower() };
+    let Body::Elastic(body) = body else { return Err("this body is rigid".to_owned()) };
+    let has_substrate = matches!(body.base(), Base::Elastic(_));
+    let coatings = layers.len() - usize::from(has_substrate && !layers.is_empty());
+    let named = match (layer, index) {
+        ("coatings", Some(index)) if index < coatings => index,
+        ("substrate", None) if has_substrate && !layers.is_empty() => coatings,
+        ("coatings", Some(_)) | ("substrate", None) => {
+            return Err("this layer has no residual stress".to_owned());
+        }
+        _ => return Err(FORMS.to_owned()),
+    };
+    let given = &layers[named];
+    if given.rows.is_empty() {
+        return Err("this layer has no residual stress".to_owned());
+    }
+    let stress = given.even().ok_or("a table over the depth, which is no one number")?;
+    let (along, value) = match axis {
+        Some(axis @ 0..2) => ([axis == 0, axis == 1], stress[axis]),
+        None if stress[0] == stress[1] => ([true; 2], stress[0]),
+        None => return Err("those along x and y differ: residual_stress[0], residual_stress[1]".to_owned()),
+        Some(_) => {
+            return Err("residual_stress[0] is that along x, residual_stress[1] that along y".to_owned());
+        }
+    };
+    Ok((What::Residual(ResidualNumber { of_upper, named, along }), value))
 }
 
 fn of_material(number: &str, material: &ElasticMaterial) -> Result<(LayerNumber, f64), String> {

@@ -1,7 +1,5 @@
 //! A history once more, from the states that its run left: what each increment prescribed, and what was solved.
 
-use ndarray::Array2;
-
 use super::fields::{Fields, zeros};
 use super::loads::{Load, Prescribed};
 use super::operators::Operators;
@@ -42,7 +40,7 @@ impl<'a> Replay<'a> {
     ) -> Next {
         let scene = self.scene;
         let [before, former] = past.map(|solved| solved.unwrap_or(&self.start));
-        let state = last.map(Snapshot::state);
+        let state = last.map(Snapshot::motions);
         let state = state.as_ref().unwrap_or(&self.untouched);
         let reached = before.reached(scene);
         let load = self.prescribed.next(snapshot.record.stage, (state, &reached), before.load.as_ref());
@@ -59,9 +57,8 @@ fn solved(
     (load, [before, former]): (&Load, [&Solved; 2]),
     (operators, found): (&mut Operators, Option<&Fields>),
 ) -> Solved {
-    let (record, state) = (&snapshot.record, &snapshot.state());
-    let region = scene.region;
-    let tractions = [&state.pressure, &state.shear[0], &state.shear[1]].map(|field| region.gather(field));
+    let (record, region) = (&snapshot.record, scene.region);
+    let (tractions, zone) = snapshot.in_region(region);
     let moved = if let Some(found) = found {
         found.clone()
     } else if tractions[0].iter().any(|p| *p > 0.0) {
@@ -69,7 +66,7 @@ fn solved(
     } else {
         zeros(region.len())
     };
-    let motions = scene.motions(state);
+    let motions = scene.motions(&snapshot.motions());
     let contact = ContactSet::loaded(&tractions[0]);
     let end_point = record.work.end_point_increments > 0;
     let rule = Rule::new(scene, (load, end_point), [before, former], (&contact, &[]), Cells::Entered);
@@ -85,7 +82,7 @@ fn solved(
         area: scene.area(),
         ends_block: snapshot.ends_block,
         opens: snapshot.has_worn(last),
-        zone: zones(scene, state),
+        zone,
         motions,
         contact,
         slid: [vec![0.0; region.len()], vec![0.0; region.len()]],
@@ -98,7 +95,7 @@ fn solved(
         tractions,
     };
     for (cell, gap) in solved.gap.iter_mut().enumerate() {
-        let place = scene.places[cell];
+        let place = scene.place(cell);
         *gap = *gap + solved.displacements[0][cell] - deep_by(&motions, place);
         if scene.is_frictional() {
             let moved = moved_by(&motions, place);
@@ -118,11 +115,4 @@ fn solved(
         }
     }
     solved
-}
-
-/// Zones in the region.
-pub(super) fn zones(scene: &Scene<'_>, state: &ContactState) -> Array2<Zone> {
-    let shape = scene.region.shape;
-    let zones = scene.region.gather_map(&state.zone, |zone| *zone);
-    Array2::from_shape_vec(shape, zones).unwrap_or_else(|_| Array2::default(shape))
 }

@@ -16,11 +16,9 @@ use crate::solver::{
 /// Derivatives by the changes of the loads in the last increment, and in this one.
 type ByLoads = [[f64; FREEDOMS]; 2];
 
-/// How the path of a cell in contact changes.
+/// How the path of a cell in contact changes, where it does.
 #[derive(Debug, Clone, PartialEq)]
 enum Path {
-    /// It does not.
-    Straight,
     /// Turn and offset of a cell that slipped, by its last two drifts, ratio and length of the increments, and the largest slip.
     Slid([[f64; 7]; 4]),
     /// Turn of a cell that stuck, by its shear and the largest one.
@@ -42,7 +40,8 @@ pub(super) struct Rule {
     slip: Largest,
     shear: Largest,
     coming: SlipThatComes,
-    paths: Vec<Path>,
+    /// Place in the contact, and cell.
+    paths: Vec<(usize, usize, Path)>,
     /// Vectors t, offsets a and moments of touch, packed.
     pub turn: Tangential,
     pub ahead: Tangential,
@@ -131,7 +130,7 @@ impl Rule {
             slip: None,
             shear: None,
             coming: SlipThatComes::default(),
-            paths: vec![Path::Straight; cells],
+            paths: Vec::new(),
             turn,
             ahead,
             touch,
@@ -182,7 +181,8 @@ impl Rule {
                     if let Some([turn, ahead]) = path_after_slip([x, y], then, (loads, ratio, largest)) {
                         self.set(place, [turn, ahead].map(|pair| pair.map(Scalar::value)));
                         let [turn, ahead] = [turn, ahead].map(|pair| pair.map(|part| part.by));
-                        self.paths[place] = Path::Slid([turn[0], turn[1], ahead[0], ahead[1]]);
+                        let by = [turn[0], turn[1], ahead[0], ahead[1]];
+                        self.paths.push((place, cell, Path::Slid(by)));
                     }
                 }
                 Zone::Stick if zones[place] == Zone::Slip => {
@@ -190,7 +190,7 @@ impl Rule {
                     let [x, y, largest] = Slopes::<3>::of_each([held[0], held[1], largest_shear]);
                     if let Some(turn) = turn_after_stick([x, y], largest) {
                         self.set(place, [turn.map(Scalar::value), [0.0; 2]]);
-                        self.paths[place] = Path::Held(turn.map(|part| part.by));
+                        self.paths.push((place, cell, Path::Held(turn.map(|part| part.by))));
                     }
                 }
                 _ => {}
@@ -233,7 +233,7 @@ impl Rule {
             let ahead = way_to_touch(moment * loads, [x, y], [along_x, along_y]);
             self.set(place, [[0.0; 2], ahead.map(Scalar::value)]);
             self.touch[place] = moment.value;
-            self.paths[place] = Path::Entered([ahead[0].by, ahead[1].by, moment.by]);
+            self.paths.push((place, cell, Path::Entered([ahead[0].by, ahead[1].by, moment.by])));
         }
         self.coming = SlipThatComes::new(&coming, before);
     }
@@ -246,8 +246,8 @@ impl Rule {
     }
 
     /// Changes of the paths, with those of the loads in `next`.
-    pub fn forward(&self, [before, former, next]: [&Change; 3], contact: &ContactSet) -> PathChange {
-        let mut found = PathChange::none(self.paths.len());
+    pub fn forward(&self, [before, former, next]: [&Change; 3]) -> PathChange {
+        let mut found = PathChange::none(self.touch.len());
         if self.pace.is_none() {
             return found;
         }
@@ -263,9 +263,8 @@ impl Rule {
         };
         (found.slip, found.shear) = (largest(self.slip, &before.drift), largest(self.shear, &before.shear));
         let slid = self.coming.forward(before);
-        for ((place, cell), path) in contact.cells().enumerate().zip(&self.paths) {
+        for &(place, cell, ref path) in &self.paths {
             match path {
-                Path::Straight => {}
                 Path::Slid(by) => {
                     let ([x, y], [then_x, then_y]) = (at(&before.drift, cell), at(&former.drift, cell));
                     let inputs = [x, y, then_x, then_y, before.ratio, found.loads, found.slip];
@@ -293,20 +292,14 @@ impl Rule {
     }
 
     /// Backwards: adds to `before`, `former`, and the loads of `next`.
-    pub fn transposed(
-        &self,
-        mut of: PathChange,
-        [before, former, next]: [&mut Change; 3],
-        contact: &ContactSet,
-    ) {
+    pub fn transposed(&self, mut of: PathChange, [before, former, next]: [&mut Change; 3]) {
         if self.pace.is_none() {
             return;
         }
         let mut slid = vec![[0.0; 2]; before.gap.len()];
-        for ((place, cell), path) in contact.cells().enumerate().zip(&self.paths) {
+        for &(place, cell, ref path) in &self.paths {
             let (turn, ahead) = (at(&of.turn, place), at(&of.ahead, place));
             match path {
-                Path::Straight => {}
                 Path::Slid(by) => {
                     let found = combination(by, &[turn[0], turn[1], ahead[0], ahead[1]]);
                     let [x, y, then_x, then_y, ratio, loads, largest] = found;
@@ -354,7 +347,7 @@ impl Rule {
     /// How many cells slipped, stuck, were open, of those whose paths change.
     #[cfg(test)]
     pub fn kinds(&self) -> [usize; 3] {
-        let count = |is: fn(&Path) -> bool| self.paths.iter().filter(|path| is(path)).count();
+        let count = |is: fn(&Path) -> bool| self.paths.iter().filter(|(.., path)| is(path)).count();
         [
             count(|path| matches!(path, Path::Slid(_))),
             count(|path| matches!(path, Path::Held(_))),

@@ -5,8 +5,10 @@ use std::sync::Arc;
 use ndarray::Array2;
 
 use super::cell::MOTIONS;
+use super::cell_rows::{add_sums_with, sums_with};
 use super::change::{Change, Reached};
 use super::error::SensitivityError;
+use super::fields::Fields;
 use super::operators::{Made, Operators};
 use super::snapshot::Snapshot;
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceResponse};
@@ -29,8 +31,8 @@ pub(super) struct Scene<'a> {
     pub grid: SurfaceGrid,
     /// The cells of it that any contact of the history comes near to.
     pub region: Region,
-    /// Place of every cell of the region along x and y over the length.
-    pub places: Vec<[f64; 2]>,
+    /// Places of the cells of the region along x and along y over the length.
+    pub places: [Vec<f64>; 2],
     /// Length that makes a rotation a motion [length].
     pub length: f64,
     /// Gap before deformation in the region [length].
@@ -61,7 +63,7 @@ impl<'a> Scene<'a> {
             plan,
             grid,
             region,
-            places: centres.iter().map(|centre| centre.map(|part| part / length)).collect(),
+            places: [0, 1].map(|axis| centres.iter().map(|centre| centre[axis] / length).collect()),
             length,
             undeformed: field(region, &undeformed),
             rig: plan.case.springs().of_part(symmetry.copies()),
@@ -125,38 +127,36 @@ impl<'a> Scene<'a> {
         [rig.normal, rig.tangential[0], rig.tangential[1]]
     }
 
-    /// For each degree of freedom the factor of a cell's tractions, normal and along x and y, in the force of the whole contact: forces normal and
-    /// along x and y, moment about z, tilting moments. None of a force that the symmetry forbids.
-    pub fn levers(&self, cell: usize) -> [[f64; 3]; 6] {
-        let [x, y] = self.places[cell].map(|place| place * self.length);
+    /// Place of a cell of the region along x and y over the length.
+    pub fn place(&self, cell: usize) -> [f64; 2] {
+        self.places.each_ref().map(|places| places[cell])
+    }
+
+    /// For each degree of freedom the factor of the sum of tractions that goes with its motion in the force of the whole contact: forces normal and along
+    /// x and y, moment about z, tilting moments. None of a force that the symmetry forbids.
+    fn levers(&self) -> [f64; 6] {
         let symmetry = self.plan.symmetry;
-        let mirrored = symmetry.axes();
-        let area = self.area();
-        let if_allowed = |allowed: bool| if allowed { area } else { 0.0 };
-        let sheared = [0, 1].map(|axis| if_allowed(symmetry.shear_is_odd(axis) == [false; 2]));
-        let turned = if_allowed(!symmetry.any());
-        [
-            [area, 0.0, 0.0],
-            [0.0, sheared[0], 0.0],
-            [0.0, 0.0, sheared[1]],
-            [0.0, -y * turned, x * turned],
-            [x * if_allowed(!mirrored[0]), 0.0, 0.0],
-            [y * if_allowed(!mirrored[1]), 0.0, 0.0],
-        ]
+        let [mirrored_x, mirrored_y] = symmetry.axes();
+        let (area, moment) = (self.area(), self.area() * self.length);
+        let if_allowed = |allowed: bool, factor: f64| if allowed { factor } else { 0.0 };
+        let [x, y] = [0, 1].map(|axis| if_allowed(symmetry.shear_is_odd(axis) == [false; 2], area));
+        let turned = if_allowed(!symmetry.any(), moment);
+        [area, x, y, turned, if_allowed(!mirrored_x, moment), if_allowed(!mirrored_y, moment)]
     }
 
     /// Forces of the whole contact under tractions, or their changes.
     pub fn resultants(&self, tractions: [&[f64]; 3]) -> [f64; 6] {
-        let mut forces = [0.0; 6];
-        for cell in 0..self.region.len() {
-            let here = tractions.map(|field| field[cell]);
-            if here != [0.0; 3] {
-                for (force, lever) in forces.iter_mut().zip(self.levers(cell)) {
-                    *force += lever[0] * here[0] + lever[1] * here[1] + lever[2] * here[2];
-                }
-            }
+        let (sums, levers) = (sums_with(&self.places, tractions), self.levers());
+        std::array::from_fn(|freedom| levers[freedom] * sums[MOTION_OF[freedom]])
+    }
+
+    /// The transpose of that: adds to tractions what amounts of the forces count.
+    pub fn add_resultants(&self, forces: [f64; 6], tractions: &mut Fields) {
+        let (levers, mut amounts) = (self.levers(), [0.0; MOTIONS]);
+        for freedom in 0..6 {
+            amounts[MOTION_OF[freedom]] = levers[freedom] * forces[freedom];
         }
-        forces
+        add_sums_with(&self.places, amounts, tractions);
     }
 
     /// Where the degrees of freedom are under forces of the whole contact and motions, or how both change.

@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use ndarray::Array2;
 
+use super::fields::{Fields, zeros};
 use crate::history::StepRecord;
 use crate::model::{ContactState, Zone};
+use crate::solver::Region;
 
 /// Bytes a cell in contact: its number, three tractions, its zone.
 const CELL: usize = 4 + 3 * 8 + 1;
@@ -32,8 +34,10 @@ impl Snapshot {
     pub fn of(record: &StepRecord, state: &ContactState, last: Option<&Self>) -> Self {
         let fields = [&state.pressure, &state.shear[0], &state.shear[1]];
         let (rows, columns) = state.zone.dim();
-        let flat = fields.map(|field| field.iter().copied().collect::<Vec<f64>>());
-        let zones: Vec<Zone> = state.zone.iter().copied().collect();
+        let fields = fields.map(|field| field.as_standard_layout());
+        let flat = fields.each_ref().map(|field| field.as_slice().unwrap_or_default());
+        let zones = state.zone.as_standard_layout();
+        let zones = zones.as_slice().unwrap_or_default();
         let touches =
             |cell: &usize| zones[*cell] != Zone::Open || flat.iter().any(|field| field[*cell] != 0.0);
         let touched: Vec<usize> = (0..rows * columns).filter(touches).collect();
@@ -64,15 +68,42 @@ impl Snapshot {
         }
     }
 
-    /// Tractions, zones and motions of the state; nothing else.
-    pub fn state(&self) -> ContactState {
-        let mut state = ContactState {
+    /// Motions of the state, without cells.
+    pub fn motions(&self) -> ContactState {
+        self.of_shape([0, 0])
+    }
+
+    fn of_shape(&self, shape: [usize; 2]) -> ContactState {
+        ContactState {
             approach: self.approach,
             shift: self.shift,
             twist: self.twist,
             tilt: self.tilt,
-            ..ContactState::untouched(self.shape)
-        };
+            ..ContactState::untouched(shape)
+        }
+    }
+
+    /// Tractions and zones in a region of the grid.
+    pub fn in_region(&self, region: Region) -> (Fields, Array2<Zone>) {
+        let mut tractions = zeros(region.len());
+        let mut zones = Array2::from_elem(region.shape, Zone::Open);
+        let [rows, columns] = region.origin;
+        for (number, cell) in self.cells.iter().enumerate() {
+            let [i, j] = [*cell as usize / self.shape[1], *cell as usize % self.shape[1]];
+            if region.contains(i, j) {
+                let place = [i - rows, j - columns];
+                for (field, values) in tractions.iter_mut().zip(&self.tractions) {
+                    field[place[0] * region.shape[1] + place[1]] = values[number];
+                }
+                zones[place] = self.zones[number];
+            }
+        }
+        (tractions, zones)
+    }
+
+    /// Tractions, zones and motions of the state; nothing else.
+    pub fn state(&self) -> ContactState {
+        let mut state = self.of_shape(self.shape);
         let [shear_x, shear_y] = &mut state.shear;
         for (field, values) in [&mut state.pressure, shear_x, shear_y].into_iter().zip(&self.tractions) {
             self.spread(values, field);

@@ -244,9 +244,9 @@ fn paths_of_slip(random: &mut Random, at: &At<'_>, rule: &Rule) {
     let cells = at.scene.region.len();
     let [before, former, next] = [(); 3].map(|()| change(random, cells));
     let y = paths(random, at.now.contact.len());
-    let forward = of_paths(&y, &rule.forward([&before, &former, &next], &at.now.contact));
+    let forward = of_paths(&y, &rule.forward([&before, &former, &next]));
     let [mut to_before, mut to_former, mut to_next] = [(); 3].map(|()| Change::none(cells));
-    rule.transposed(y, [&mut to_before, &mut to_former, &mut to_next], &at.now.contact);
+    rule.transposed(y, [&mut to_before, &mut to_former, &mut to_next]);
     let pairs = [(&to_before, &before), (&to_former, &former), (&to_next, &next)];
     alike("paths", forward, pairs.map(|(a, b)| of_changes(a, b)).iter().sum(), 1e-12);
 }
