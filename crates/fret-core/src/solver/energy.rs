@@ -104,6 +104,7 @@ impl IncrementProblem<'_> {
         let approached = after.approach - state.approach;
         let moved = [0, 1].map(|axis| after.shift[axis] - state.shift[axis]);
         let turned = after.twist - state.twist;
+        let pole = self.positions.pole();
         for cell in 0..region.len() {
             let at = region.at(cell);
             let pressure = 0.5 * (state.pressure[at] + solved.tractions.pressure[cell]);
@@ -112,8 +113,8 @@ impl IncrementProblem<'_> {
             }
             let shear = solved.tractions.shear.at(cell);
             let [x, y] = [0, 1].map(|axis| 0.5 * (state.shear[axis][at] + shear[axis]));
-            let [to_x, to_y] =
-                [moved[0] - turned * grid.centre(1, at[1]), moved[1] + turned * grid.centre(0, at[0])];
+            let [from_x, from_y] = [0, 1].map(|axis| grid.centre(axis, at[axis]) - pole[axis]);
+            let [to_x, to_y] = [moved[0] - turned * from_y, moved[1] + turned * from_x];
             let drift = solved.drift.at(cell);
             work += pressure * (approached + self.tilted(at, after.tilt)) + x * to_x + y * to_y;
             if let Some(moved) = &self.moved {

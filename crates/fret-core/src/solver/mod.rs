@@ -134,6 +134,8 @@ pub struct ContactSolver<'a> {
     travel: usize,
     /// By how much moving surfaces change the gap before deformation in the next increment [length].
     moved: Option<Array2<f64>>,
+    /// Where the bodies turn about in the next increment, and their moment counts [length].
+    pole: [f64; 2],
     /// Cells that the contact travels over both surfaces by in the next increment.
     rolled: [f64; 2],
 }
@@ -180,6 +182,7 @@ impl<'a> ContactSolver<'a> {
             friction_work: None,
             travel: 0,
             moved: None,
+            pole: [0.0; 2],
             rolled: [0.0; 2],
         }
     }
@@ -343,6 +346,11 @@ impl<'a> ContactSolver<'a> {
         self.carried = carried;
         self.moved = moved;
         self.travel = cells[0].abs().max(cells[1].abs()).ceil() as usize;
+    }
+
+    /// In the next increments the bodies turn about a place [length], and the moment counts about it: the middle of the grid otherwise.
+    pub fn set_pole(&mut self, pole: [f64; 2]) {
+        self.pole = pole;
     }
 
     /// Goes on with bodies that respond otherwise; `table`: their frequency response, where it is used. As with another gap, the displacements

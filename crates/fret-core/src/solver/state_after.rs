@@ -34,7 +34,7 @@ pub(super) fn state_after(
     let end_slip = contact.packed_tangential(&solution.end_slip);
     let mut state = tractions_and_motions(problem, solved);
     let mut stick_cells = 0;
-    let mut moment = 0.0;
+    let (mut moment, pole) = (0.0, problem.positions.pole());
     let (mut tilt_moment, mut second_moment) = ([0.0; 2], [0.0; 2]);
     let mut dissipated = 0.0;
     let mut dissipate = |at: [usize; 2], work: f64| {
@@ -48,7 +48,8 @@ pub(super) fn state_after(
     for (place, cell) in contact.cells().enumerate() {
         let at = region.at(cell);
         let [q, end] = [shear.at(place), end_slip.at(place)];
-        moment += grid.centre(0, at[0]) * q[1] - grid.centre(1, at[1]) * q[0];
+        let [x, y] = [0, 1].map(|axis| grid.centre(axis, at[axis]) - pole[axis]);
+        moment += x * q[1] - y * q[0];
         for axis in 0..2 {
             let place = problem.stretch.middle[axis] + grid.centre(axis, at[axis]);
             tilt_moment[axis] += place * pressure[cell];
