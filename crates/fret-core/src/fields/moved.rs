@@ -14,12 +14,26 @@ pub enum Outside {
     Repeats,
 }
 
+impl Outside {
+    /// Which of `count` places has what lies at an index, which may be beyond them; `None`: nothing lies there.
+    fn index(self, index: isize, count: usize) -> Option<usize> {
+        match self {
+            Self::Repeats => Some(index.rem_euclid(count as isize) as usize),
+            Self::Edge => Some(index.clamp(0, count as isize - 1) as usize),
+            Self::Zero => usize::try_from(index).ok().filter(|index| *index < count),
+        }
+    }
+}
+
 /// A field whose content is carried along by `cells` towards higher indices, a number for each axis.
 ///
 /// Values are means over cells. Carried by a part of a cell, the content of each cell is a straight line whose slope is limited so that
 /// nothing new rises or sinks (van Leer 1977, J. Comput. Phys. 23, 276): exact for a straight line, of second order for a smooth field, and
 /// what one cell gives the next one takes, so that the sum stays to rounding where nothing passes the edge. Carried by whole cells, to the bit.
 pub fn carried(field: &Array2<f64>, cells: [f64; 2], outside: Outside) -> Array2<f64> {
+    if cells.iter().all(|by| by.fract() == 0.0) {
+        return carried_by_whole_cells(field, cells.map(|by| by as isize), (outside, 0.0));
+    }
     let mut moved = field.clone();
     for (axis, by) in cells.into_iter().enumerate() {
         if by != 0.0 {
@@ -31,17 +45,25 @@ pub fn carried(field: &Array2<f64>, cells: [f64; 2], outside: Outside) -> Array2
     moved
 }
 
+/// A field of anything carried along by whole `cells`; `nothing` is what lies outside where that is nothing.
+pub fn carried_by_whole_cells<A: Copy>(
+    field: &Array2<A>,
+    cells: [isize; 2],
+    (outside, nothing): (Outside, A),
+) -> Array2<A> {
+    let (nx, ny) = field.dim();
+    let from = |count: usize, by: isize| -> Vec<Option<usize>> {
+        (0..count as isize).map(|to| outside.index(to - by, count)).collect()
+    };
+    let (rows, columns) = (from(nx, cells[0]), from(ny, cells[1]));
+    let at = |(i, j): (usize, usize)| rows[i].zip(columns[j]).map_or(nothing, |from| field[from]);
+    Array2::from_shape_fn((nx, ny), at)
+}
+
 /// Carries one lane of a field.
 pub(super) fn carry(lane: &mut ArrayViewMut1<'_, f64>, by: f64, outside: Outside) {
     let from: Vec<f64> = lane.iter().copied().collect();
-    let count = from.len() as isize;
-    let at = |index: isize| match outside {
-        Outside::Repeats => from[index.rem_euclid(count) as usize],
-        Outside::Edge => from[index.clamp(0, count - 1) as usize],
-        Outside::Zero => {
-            usize::try_from(index).ok().and_then(|index| from.get(index)).copied().unwrap_or(0.0)
-        }
-    };
+    let at = |index: isize| outside.index(index, from.len()).map_or(0.0, |index| from[index]);
     let whole = by.floor();
     let part = by - whole;
     let first = |to: usize| to as isize - whole as isize;

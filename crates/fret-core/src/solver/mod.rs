@@ -319,9 +319,12 @@ impl<'a> ContactSolver<'a> {
         self.set_tilt(tilt);
     }
 
-    /// The bodies have been carried over the grid by whole cells along each axis, with all that is known of their last states.
-    pub fn carry_memory(&mut self, cells: [isize; 2]) {
-        self.memory = std::mem::take(&mut self.memory).carried(cells);
+    /// The bodies have been carried over the grid by whole cells along each axis, with all that is known of their last states. What was remembered
+    /// before.
+    pub fn carry_memory(&mut self, cells: [isize; 2]) -> SolverMemory {
+        let ends_inside = self.beyond.is_body() && self.periodic.is_none();
+        let carried = self.memory.carried(cells, ends_inside);
+        std::mem::replace(&mut self.memory, carried)
     }
 
     /// Another bound on the residuals from the next increment on.
