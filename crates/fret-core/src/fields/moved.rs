@@ -1,7 +1,7 @@
 //! Fields carried over the grid: by whole cells, where values stay as they are to the bit, and by a part of a cell, where the sum of all
 //! values stays.
 
-use ndarray::{Array2, ArrayViewMut1, Axis};
+use ndarray::{Array2, ArrayViewMut1, Axis, s};
 
 /// What lies beyond the edge of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,8 +56,22 @@ pub fn carried_by_whole_cells<A: Copy>(
         (0..count as isize).map(|to| outside.index(to - by, count)).collect()
     };
     let (rows, columns) = (from(nx, cells[0]), from(ny, cells[1]));
-    let at = |(i, j): (usize, usize)| rows[i].zip(columns[j]).map_or(nothing, |from| field[from]);
-    Array2::from_shape_fn((nx, ny), at)
+    // Along y all but what comes over the edge is one piece.
+    let first = cells[1].clamp(0, ny as isize) as usize;
+    let end = (ny as isize + cells[1]).clamp(first as isize, ny as isize) as usize;
+    let from_first = (first as isize - cells[1]).clamp(0, (ny - (end - first)) as isize) as usize;
+    let mut moved = Array2::from_elem((nx, ny), nothing);
+    for (mut to, row) in moved.rows_mut().into_iter().zip(rows) {
+        let Some(row) = row else { continue };
+        let from = field.row(row);
+        to.slice_mut(s![first..end]).assign(&from.slice(s![from_first..from_first + (end - first)]));
+        for j in (0..first).chain(end..ny) {
+            if let Some(column) = columns[j] {
+                to[j] = from[column];
+            }
+        }
+    }
+    moved
 }
 
 /// Carries one lane of a field.
@@ -135,6 +149,27 @@ mod tests {
             field
         );
         assert_eq!(carried(&field, [1.0, 0.0], Outside::Edge).row(0), field.row(0));
+    }
+
+    /// Farther than the field is wide, too, and what is no number.
+    #[test]
+    fn whole_cells_come_from_where_they_were_or_from_outside() {
+        let field = Array2::from_shape_fn((4, 3), |(i, j)| 10 * i + j);
+        for cells in [[0, 0], [1, -2], [-3, 3], [2, 5], [-7, -9]] {
+            for outside in [Outside::Zero, Outside::Edge, Outside::Repeats] {
+                let moved = carried_by_whole_cells(&field, cells, (outside, 99));
+                for ((i, j), value) in moved.indexed_iter() {
+                    let [x, y] = [i as isize - cells[0], j as isize - cells[1]];
+                    let expected = match outside {
+                        Outside::Zero if (0..4).contains(&x) && (0..3).contains(&y) => 10 * x + y,
+                        Outside::Zero => 99,
+                        Outside::Edge => 10 * x.clamp(0, 3) + y.clamp(0, 2),
+                        Outside::Repeats => 10 * x.rem_euclid(4) + y.rem_euclid(3),
+                    };
+                    assert_eq!(*value as isize, expected, "{cells:?} {outside:?} {i} {j}");
+                }
+            }
+        }
     }
 
     /// Sum, sign and order of what is carried by a part of a cell.

@@ -200,6 +200,17 @@ impl Moving {
         Some(more.map(|along| Array2::from_elem(self.grid.cells(), along)))
     }
 
+    /// How far a place and a twist that were taken, after a way [cells], are off those that were then found, in cells; and whether these are beside them.
+    /// Rounded to a hundredth, two places may take turns; so may a right angle, to which a twist beside it is rounded, and that twist.
+    fn off(&self, [(place, twist), (reached, found)]: [(Place, f64); 2], way: [f64; 2]) -> (f64, bool) {
+        let [off, turned_off] = self.motion.apart([place, reached]);
+        let of_turn = 0.5 * (found - twist).abs() * way[0].hypot(way[1]);
+        let off_by_turn = turned_off.max(of_turn);
+        let over_a_right_angle = (place.turned == twist) != (reached.turned == found);
+        let beside = off < 0.015 && (off_by_turn < SAME_PLACE || over_a_right_angle && off_by_turn < 0.006);
+        (off.max(off_by_turn), beside)
+    }
+
     /// Whether cells in contact lie beside cells over which nothing is known of the upper body.
     fn touches_unknown(&self, gap: &Array2<f64>, pressure: &Array2<f64>) -> bool {
         if self.profile.of_upper[1] == 0 || self.repeats {
@@ -359,15 +370,8 @@ impl<'a> Stepper<'a> {
             }
             let found = solved.state.twist;
             let reached = moving.motion.place(solved.state.shift, found);
-            let [off, turned_off] = moving.motion.apart([place, reached]);
-            let of_turn = 0.5 * (found - twist).abs() * way.by[0].hypot(way.by[1]);
-            let off_by_turn = turned_off.max(of_turn);
-            // Rounded to a hundredth, two places may take turns; so may a right angle, to which a twist beside it is rounded, and that twist.
-            let over_a_right_angle = (place.turned == twist) != (reached.turned == found);
-            let beside =
-                off < 0.015 && (off_by_turn < SAME_PLACE || over_a_right_angle && off_by_turn < 0.006);
-            let takes_turns = round >= TAKING_TURNS && beside;
-            if is_known || off.max(off_by_turn) < SAME_PLACE || takes_turns {
+            let (off, beside) = moving.off([(place, twist), (reached, found)], way.by);
+            if is_known || off < SAME_PLACE || round >= TAKING_TURNS && beside {
                 solved.work = work;
                 return Ok(solved);
             }
@@ -375,7 +379,7 @@ impl<'a> Stepper<'a> {
                 solver.restore_memory(memory.clone());
             }
             if round == MOST_ROUNDS {
-                return Err(SolveError::NotConverged { reached: off.max(off_by_turn), iterations: round });
+                return Err(SolveError::NotConverged { reached: off, iterations: round });
             }
             round += 1;
             let by_moment = load.twist.force().is_some();

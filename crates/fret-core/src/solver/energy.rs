@@ -104,7 +104,6 @@ impl IncrementProblem<'_> {
         let approached = after.approach - state.approach;
         let moved = [0, 1].map(|axis| after.shift[axis] - state.shift[axis]);
         let turned = after.twist - state.twist;
-        let pole = self.positions.pole();
         for cell in 0..region.len() {
             let at = region.at(cell);
             let pressure = 0.5 * (state.pressure[at] + solved.tractions.pressure[cell]);
@@ -113,7 +112,7 @@ impl IncrementProblem<'_> {
             }
             let shear = solved.tractions.shear.at(cell);
             let [x, y] = [0, 1].map(|axis| 0.5 * (state.shear[axis][at] + shear[axis]));
-            let [from_x, from_y] = [0, 1].map(|axis| grid.centre(axis, at[axis]) - pole[axis]);
+            let [from_x, from_y] = self.arm(at);
             let [to_x, to_y] = [moved[0] - turned * from_y, moved[1] + turned * from_x];
             let drift = solved.drift.at(cell);
             work += pressure * (approached + self.tilted(at, after.tilt)) + x * to_x + y * to_y;

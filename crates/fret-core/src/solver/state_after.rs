@@ -34,7 +34,7 @@ pub(super) fn state_after(
     let end_slip = contact.packed_tangential(&solution.end_slip);
     let mut state = tractions_and_motions(problem, solved);
     let mut stick_cells = 0;
-    let (mut moment, pole) = (0.0, problem.positions.pole());
+    let mut moment = 0.0;
     let (mut tilt_moment, mut second_moment) = ([0.0; 2], [0.0; 2]);
     let mut dissipated = 0.0;
     let mut dissipate = |at: [usize; 2], work: f64| {
@@ -48,8 +48,7 @@ pub(super) fn state_after(
     for (place, cell) in contact.cells().enumerate() {
         let at = region.at(cell);
         let [q, end] = [shear.at(place), end_slip.at(place)];
-        let [x, y] = [0, 1].map(|axis| grid.centre(axis, at[axis]) - pole[axis]);
-        moment += x * q[1] - y * q[0];
+        moment += problem.moment_of(at, q);
         for axis in 0..2 {
             let place = problem.stretch.middle[axis] + grid.centre(axis, at[axis]);
             tilt_moment[axis] += place * pressure[cell];
@@ -124,6 +123,20 @@ pub(super) fn state_after(
     let contact_cells = contact.len();
     let outcome = Outcome { resultants, contact_cells, stick_cells, regime, residual };
     (state, outcome)
+}
+
+impl IncrementProblem<'_> {
+    /// The arm of a cell: from what the bodies turn about to where it is [length].
+    pub(super) fn arm(&self, at: [usize; 2]) -> [f64; 2] {
+        let pole = self.positions.pole();
+        [0, 1].map(|axis| self.grid.centre(axis, at[axis]) - pole[axis])
+    }
+
+    /// The moment of a shear in a cell by its arm [pressure x length].
+    fn moment_of(&self, at: [usize; 2], shear: [f64; 2]) -> f64 {
+        let [x, y] = self.arm(at);
+        x * shear[1] - y * shear[0]
+    }
 }
 
 /// Tractions and motions after an increment; slip, zones and dissipated energy are still those before.
