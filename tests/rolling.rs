@@ -1,11 +1,14 @@
 //! Contacts that roll: Carter's creepage, the numbers of CONTACT's example, and one problem in the frames of the bodies and of the contact.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
-use fret_core::case::Case;
-use fret_core::history::{History, StepRecord};
-use fret_core::plan::Plan;
-use fret_validation::{off_first_law, run, solved};
+use fret_core::case::{Attachments, Case};
+use fret_core::history::{History, Start, StepRecord};
+use fret_core::plan::{LeaveOut, Plan};
+use fret_core::run::{Silent, Simulation};
+use fret_validation::{off_first_law, run, solved, solved_with};
+use ndarray::Array2;
 
 /// Two cylinders of one material with E* = 1 and the relative radius 100, pressed to a half-width of 1; friction 0.3.
 fn cylinders(grid: &str, kinematics: &str, loads: &str) -> String {
@@ -608,8 +611,8 @@ fn a_steady_point_of_a_coated_ball_is_found_soon() {
         "steady point: {:?} after {} increments, {} convolutions, {:.3} s",
         last.tangential_force, last.parts, last.work.convolutions, last.wall_s
     );
-    // 2704 were counted, 46 cells over the contact.
-    assert!(last.work.convolutions < 3000, "{}", last.work.convolutions);
+    // 2378 were counted, 46 cells over the contact.
+    assert!(last.work.convolutions < 2650, "{}", last.work.convolutions);
     let [creepage, spin] = [last.creepage.unwrap()[1], last.spin.unwrap()];
     assert!((creepage / 5e-4 - 1.0).abs() < 1e-9 && (spin / 1e-3 - 1.0).abs() < 1e-9);
 }
@@ -639,4 +642,65 @@ fn increments_that_are_whole_cells_but_for_rounding_go_by_whole_cells() {
             "{size}: {found} {right}, {sticking} {cells}"
         );
     }
+}
+
+/// A scar stays where it was worn while the contact rolls away over it: one history from the worn state, and one of a body whose surface was made so. With
+/// the contact nothing would carry the scar along, and that is refused; a state without one goes on there.
+#[test]
+fn a_contact_that_starts_worn_rolls_over_its_scar() {
+    let case = |frame: &str, profile: &str, loads: &str| {
+        format!(
+            "[grid]\ncells = [40, 32]\nsize = [4.0, 3.2]\n[upper]\nrigid = true\n[lower]\nsubstrate = {{ young = 1.0, poisson = 0.2 }}\n\
+             [profile.sphere]\nradius = 100.0\n{profile}[friction]\ncoefficient = 0.3\n{frame}[solver]\nintegration = \"end_point\"\ntolerance = 1e-9\n\
+             [output]\nevery = 1\nfields = [\"pressure\", \"shear\", \"worn_depth\"]\n{loads}"
+        )
+    };
+    // By end points: what came before in the one history tells nothing of the paths of slip in the other.
+    let press = "[[load]]\nnormal_force = 1.2e-2\nincrements = 2\n";
+    let wear = "[wear]\ncoefficient = 0.5\nevery = 10\nlargest_step = 0.1\n";
+    let rub = format!("{wear}{press}[[load]]\nshift = [0.05, 0.0]\ncycles = 10\nincrements = 8\n");
+    let rolls = |roll: f64, increments: usize| {
+        format!(
+            "[[load]]\nnormal_force = 0.0\nshift = [0.0, 0.0]\nincrements = 1\n{press}[[load]]\nroll = [{roll:?}, 0.0]\nincrements = {increments}\n"
+        )
+    };
+    let from = |start: &History, text: &str| {
+        let start = Arc::new(Start::of(start, start.steps.last().unwrap().increment).unwrap());
+        let attachments = Attachments { start: Some(start.solved.loads), ..Attachments::none() };
+        let case = Case::from_toml_with(text, "case.toml", attachments).unwrap();
+        let plan =
+            Plan::starting_from(Some(start), case, LeaveOut::ALL).map_err(|error| error.to_string())?;
+        Simulation::new(&plan).run(&mut Silent).map_err(|error| error.to_string())
+    };
+    let worn = solved(&case("", "", &rub));
+    let depth = worn.fields.last().unwrap().worn_depth.clone().unwrap();
+    let largest = |field: &Array2<f64>| field.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    assert!(largest(&depth) > 0.1 * worn.steps[1].approach);
+    let rolled = from(&worn, &case("", "", &rolls(0.65, 6))).unwrap();
+    let made = "[profile.heights]\nof = \"gap\"\nvalues = { array = 0 }\n";
+    let made = solved_with(&case("", made, &rolls(0.65, 6)), &[depth]);
+    for step in 1..9 {
+        let [one, other] = [&rolled, &made].map(|history| history.fields_of(step).unwrap());
+        let [p, r] = [one, other].map(|fields| fields.pressure.as_ref().unwrap());
+        let off = largest(&(p - r)) / largest(r);
+        let [q, s] = [one, other].map(|fields| &fields.shear.as_ref().unwrap()[0]);
+        let sheared = largest(&(q - s)) / largest(r);
+        // residuals of 1e-9 of each, in regions of their own
+        assert!(off < 1e-6 && sheared < 1e-6, "{step}: {off:e} {sheared:e}");
+    }
+    let last = made.fields_of(8).unwrap().pressure.as_ref().unwrap();
+    let fresh = solved(&case("", "", &rolls(0.65, 6)));
+    let unworn = fresh.fields_of(8).unwrap().pressure.as_ref().unwrap();
+    assert!(largest(&(last - unworn)) > 0.02 * largest(unworn), "the scar is felt");
+    let contact = "[kinematics]\nframe = \"contact\"\n";
+    let refused = from(&worn, &case(contact, "", &rolls(0.6, 6))).unwrap_err();
+    assert!(
+        refused.contains("kinematics.frame = \"contact\"") && refused.contains("worn or yielded"),
+        "{refused}"
+    );
+    let pressed = solved(&case("", "", press));
+    let onward = from(&pressed, &case(contact, "", &rolls(0.6, 6))).unwrap();
+    let whole = solved(&case(contact, "", &rolls(0.6, 6)));
+    let [one, other] = [&onward, &whole].map(|history| history.steps.last().unwrap().approach);
+    assert!((one / other - 1.0).abs() < 1e-8, "{one} {other}");
 }

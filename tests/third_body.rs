@@ -229,19 +229,9 @@ fn displacement_by_a_strip(away: f64, half: f64) -> f64 {
     -2.0 / PI * (part(away + half) - part(away - half))
 }
 
-/// Debris that gives by p b/E: where bodies touch, profile, wear, debris, what that gives and the elastic displacement, which is in closed form here, are
-/// the same sum in every cell. Under a stiffness beyond all others nothing is changed but roundings.
-#[test]
-fn debris_gives_by_its_thickness_and_the_pressure() {
-    // Pressed further once more without friction, so that nothing wears after the last pressure is found.
-    let further =
-        format!("[[load]]\nnormal_force = {:e}\nfriction = 0.0\nincrements = 1\n", 1.2 * line_force());
-    let case = |stiffness: &str| {
-        let wear = format!("[wear.debris]\nfraction = 0.9\n{stiffness}{further}");
-        cylinder("", [0.003, 0.0015], 400, &wear)
-    };
-    let stiffness = 2e-3;
-    let history = solved(&case(&format!("stiffness = {stiffness:e}\n")));
+/// Where bodies touch, profile, wear, debris, what that gives by and the elastic displacement are one sum in every cell: how many cells touch, how far
+/// their sums are off that of the middle, and the least and the largest that debris of a stiffness gives by [length].
+fn one_sum(history: &History, stiffness: f64) -> (usize, f64, [f64; 2]) {
     let fields = history.fields.last().unwrap();
     let [worn, debris, pressure] =
         [&fields.worn_depth, &fields.debris, &fields.pressure].map(|field| field.as_ref().unwrap());
@@ -256,18 +246,71 @@ fn debris_gives_by_its_thickness_and_the_pressure() {
     let touching: Vec<usize> = (0..96).filter(|i| pressure[[*i, 0]] > 0.0).collect();
     let middle = sum(48);
     let off = touching.iter().map(|i| (sum(*i) - middle).abs()).fold(0.0, f64::max);
-    let [most, least] = [f64::max, f64::min].map(|of| touching.iter().map(|i| gives(*i)).reduce(of).unwrap());
-    println!(
-        "debris gives by {least:.2e} to {most:.2e} in {} cells; sums differ by {off:.1e}",
-        touching.len()
-    );
+    let ends = [f64::min, f64::max].map(|of| touching.iter().map(|i| gives(*i)).reduce(of).unwrap());
+    (touching.len(), off, ends)
+}
+
+/// Debris that gives by p b/E: where bodies touch, profile, wear, debris, what that gives and the elastic displacement, which is in closed form here, are
+/// the same sum in every cell. Under a stiffness beyond all others nothing is changed but roundings.
+#[test]
+fn debris_gives_by_its_thickness_and_the_pressure() {
+    // Pressed further once more without friction, so that nothing wears after the last pressure is found.
+    let further =
+        format!("[[load]]\nnormal_force = {:e}\nfriction = 0.0\nincrements = 1\n", 1.2 * line_force());
+    let case = |stiffness: &str| {
+        let wear = format!("[wear.debris]\nfraction = 0.9\n{stiffness}{further}");
+        cylinder("", [0.003, 0.0015], 400, &wear)
+    };
+    let stiffness = 2e-3;
+    let history = solved(&case(&format!("stiffness = {stiffness:e}\n")));
+    let (touching, off, [least, most]) = one_sum(&history, stiffness);
+    println!("debris gives by {least:.2e} to {most:.2e} in {touching} cells; sums differ by {off:.1e}");
     // residuals of 1e-8 of an approach of some 1e-3
-    assert!(touching.len() > 10 && most - least > 1e-5 && off < 1e-9, "{off:e}");
+    assert!(touching > 10 && most - least > 1e-5 && off < 1e-9, "{off:e}");
     let [stiff, without] = ["stiffness = 1e30\n", ""].map(|text| solved(&case(text)));
     let [one, other] = [&stiff, &without].map(|history| history.steps.last().unwrap().clone());
     assert!((one.approach / other.approach - 1.0).abs() < 1e-9);
     assert!((one.worn_volume / other.worn_volume - 1.0).abs() < 1e-9);
     assert!(history.steps.last().unwrap().approach > 1.01 * other.approach);
+}
+
+/// A history that starts from a worn state presses on debris that is as stiff as its own case says, not as it was.
+#[test]
+fn debris_of_a_worn_start_gives_by_the_stiffness_of_the_case_that_starts() {
+    let wear = |stiffness: f64| format!("[wear.debris]\nfraction = 0.9\nstiffness = {stiffness:e}\n");
+    let worn = solved(&cylinder("", [0.003, 0.0015], 400, &wear(2e-3)));
+    let start = std::sync::Arc::new(Start::of(&worn, worn.steps.last().unwrap().increment).unwrap());
+    // Nothing wears any more, and without friction the displacement is that by pressure.
+    let further = format!(
+        "[[load]]\nnormal_force = {:e}\nincrements = 1\n[[load]]\nnormal_force = {:e}\nfriction = 0.0\nincrements = 1\n",
+        line_force(),
+        1.2 * line_force()
+    );
+    let pressed = |stiffness: f64| {
+        let text = cylinder("", [0.0, 0.0], 1, &wear(stiffness));
+        let (head, rest) = text.split_once("[[load]]").unwrap();
+        let (_, wear) = rest.split_once("[wear]").unwrap();
+        let text = format!("{head}[wear]{wear}{further}");
+        let attachments = Attachments { start: Some(start.solved.loads), ..Attachments::none() };
+        let case = Case::from_toml_with(&text, "case.toml", attachments).unwrap();
+        let plan = Plan::starting_from(Some(start.clone()), case, LeaveOut::ALL).unwrap();
+        Simulation::new(&plan).run(&mut Silent).unwrap()
+    };
+    let mut approach = 0.0;
+    for stiffness in [1e-2, 2e-3, 5e-4] {
+        let history = pressed(stiffness);
+        assert_eq!(history.state.debris, worn.state.debris);
+        let (touching, off, [least, most]) = one_sum(&history, stiffness);
+        println!(
+            "started on debris of {stiffness:e}: gives by {least:.2e} to {most:.2e}; sums differ by {off:.1e}"
+        );
+        // residuals of 1e-8 of an approach of some 1e-3
+        assert!(touching > 10 && most - least > 2e-6 && off < 1e-9, "{off:e}");
+        // the softer, the farther
+        let last = history.steps.last().unwrap().approach;
+        assert!(last > approach, "{last:e} {approach:e}");
+        approach = last;
+    }
 }
 
 /// A ball whose shear moves the surfaces normally, on debris that gives: what carries by itself is a diagonal in every operator, so that energy is

@@ -4,7 +4,8 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use fret_core::history::History;
-use fret_validation::{off_first_law, solved, solved_with};
+use fret_core::run::RunError;
+use fret_validation::{by_end_points, off_first_law, run, solved, solved_with};
 use ndarray::Array2;
 
 const FINITE: &str = "[kinematics]\ndisplacement = \"finite\"\n";
@@ -179,4 +180,121 @@ fn an_automatic_size_holds_a_contact_that_turns() {
     let history = solved(&text);
     let [dx, dy] = history.grid.spacing();
     assert!((dx / dy - 1.0).abs() < 1e-12 && history.steps.iter().all(|step| step.footprint.free >= 1));
+}
+
+/// A twist of a rough ellipsoid that is pressed, brought aside and turned, is what the moment about its middle that was read off turns it by: one
+/// history, prescribed by motions or by moments.
+#[test]
+fn a_moment_turns_by_the_twist_that_it_was_read_off() {
+    const CELLS: usize = 32;
+    let at = |index: usize| (index as f64 - (CELLS as f64 - 1.0) / 2.0) * 0.075;
+    let heights = Array2::from_shape_fn((CELLS, CELLS), |(i, j)| {
+        let (x, y) = (at(i), at(j));
+        -(x * x / 40.0 + y * y / 10.0) + 2e-3 * (5.0 * x + 1.0).sin() * (4.0 * y).cos()
+    });
+    let shifts = [[0.02, 0.01], [0.05, 0.02], [0.08, 0.05], [0.06, 0.04]];
+    let twists = [0.32, 0.35, 0.34, 0.31];
+    let case = |turns: [String; 4]| {
+        let loads: String = shifts
+            .iter()
+            .zip(turns)
+            .map(|([x, y], turn)| format!("[[load]]\nshift = [{x:?}, {y:?}]\n{turn}\nincrements = 1\n"))
+            .collect();
+        format!(
+            "[grid]\ncells = [{CELLS}, {CELLS}]\nsize = [2.4, 2.4]\n[upper]\nsubstrate = {{ young = 2.0, poisson = 0.2 }}\n\
+             [upper.profile.heights]\nvalues = {{ array = 0 }}\n[lower]\nsubstrate = {{ young = 1.0, poisson = 0.3 }}\n\
+             [friction]\ncoefficient = 0.9\n[solver]\ntolerance = 1e-10\n[output]\nevery = 1\n{FINITE}\
+             [[load]]\nnormal_force = 0.0\ntwist = 0.3\nincrements = 1\n[[load]]\nnormal_force = 2e-2\nincrements = 2\n{loads}"
+        )
+    };
+    let maps = std::slice::from_ref(&heights);
+    // By end points: what is known of a path of slip inside an increment is another thing for motions than for forces.
+    let solved_with = |text: String, maps: &[Array2<f64>]| solved_with(&by_end_points(&text), maps);
+    let by_twist = solved_with(case(twists.map(|twist| format!("twist = {twist:?}"))), maps);
+    let moments = [3, 4, 5, 6].map(|step| by_twist.steps[step].twist_moment);
+    let by_moment = solved_with(case(moments.map(|moment| format!("twist_moment = {moment:?}"))), maps);
+    assert!(by_twist.steps.last().unwrap().stick_cells > 20 && by_moment.steps.len() == 7);
+    let mut off = [0.0_f64; 3];
+    for step in 3..7 {
+        let [one, other] = [&by_twist, &by_moment].map(|history| history.fields_of(step).unwrap());
+        let [p, r] = [one, other].map(|fields| fields.pressure.as_ref().unwrap());
+        off[0] = off[0].max(largest(&(p - r)) / largest(p));
+        for axis in 0..2 {
+            let [q, s] = [one, other].map(|fields| &fields.shear.as_ref().unwrap()[axis]);
+            off[1] = off[1].max(largest(&(q - s)) / largest(p));
+        }
+        let [one, other] = [&by_twist, &by_moment].map(|history| &history.steps[step]);
+        off[2] = off[2].max((one.twist - other.twist).abs());
+        assert!((other.twist_moment / moments[step - 3] - 1.0).abs() < 1e-7);
+    }
+    println!(
+        "moments {moments:?}: pressure, shear off by {:.1e}, {:.1e}, twist by {:.1e}",
+        off[0], off[1], off[2]
+    );
+    // Places are one to 1e-4 of a cell where the grid ends, 23 cells from its middle: 5e-6 of a turn of 0.05.
+    assert!(off[0] < 1e-5 && off[1] < 1e-5 && off[2] < 5e-6, "{off:?}");
+    // What an increment starts from lies by that much off where the one before was solved, and its pressure works on it.
+    for (history, most) in [(&by_twist, 1e-9), (&by_moment, 1e-8)] {
+        let off = off_first_law(history, 0.0);
+        assert!(off < most, "{off:e} {most:e}");
+    }
+}
+
+/// A rigid ball that a moment turns turns within itself: as far as with small displacement, wherever it is, and nothing pulls it there; under all that
+/// Coulomb's law gives at this place it slides, and more is refused.
+#[test]
+fn a_moment_turns_a_ball_within_itself_wherever_it_is() {
+    let radius = (0.75 * 8e-3 * 100.0_f64).cbrt();
+    let torque = 3.0 * PI / 16.0 * 0.3 * 8e-3 * radius;
+    let case = |shift: f64, kinematics: &str, fraction: f64| {
+        format!(
+            "[grid]\ncells = [64, 64]\nsize = [3.2, 3.2]\n[upper]\nrigid = true\n[upper.profile.sphere]\nradius = 100.0\n[lower]\n\
+             substrate = {{ young = 0.91, poisson = 0.3 }}\n[friction]\ncoefficient = 0.3\n[solver]\ntolerance = 1e-9\n{kinematics}\
+             [[load]]\nnormal_force = 0.0\nshift = [{shift:?}, {:?}]\nincrements = 1\n[[load]]\nnormal_force = 8e-3\nincrements = 3\n\
+             [[load]]\ntwist_moment = {:e}\nincrements = 4\n",
+            -0.5 * shift,
+            fraction * torque,
+        )
+    };
+    let small = solved(&case(0.0, "", 0.8));
+    let away = solved(&case(0.4, FINITE, 0.8));
+    for (step, moved) in small.steps.iter().zip(&away.steps).skip(4) {
+        println!("turned by {:.8e}, away by {:.8e}", step.twist, moved.twist);
+        // whole cells away: residuals of 1e-9 of each
+        assert!((step.twist / moved.twist - 1.0).abs() < 1e-6 && step.twist > 0.0);
+        assert!((moved.twist_moment / step.twist_moment - 1.0).abs() < 1e-7);
+        assert!(moved.tangential_force[0].hypot(moved.tangential_force[1]) < 1e-6 * 0.3 * 8e-3);
+    }
+    assert!(off_first_law(&away, 0.0) < 1e-9, "{:e}", off_first_law(&away, 0.0));
+    // half a per cent is what the cells make of the torque
+    assert!(matches!(run(&case(0.4, FINITE, 1.01)), Err(RunError::AboveFullSlip { .. })));
+}
+
+/// A moment twists a rough body that has been turned by a right angle as it does one that lies so from the start.
+#[test]
+fn a_moment_on_a_body_turned_by_a_right_angle_is_that_on_one_that_lies_so() {
+    const CELLS: usize = 32;
+    let at = |index: usize| (index as f64 - (CELLS as f64 - 1.0) / 2.0) * 0.0625;
+    let heights = Array2::from_shape_fn((CELLS, CELLS), |(i, j)| {
+        let (x, y) = (at(i), at(j));
+        -(x * x + 2.0 * y * y) / 200.0 + 2e-4 * (7.0 * x + 1.0).sin() * (5.0 * y).cos()
+    });
+    let case = |first: &str| {
+        format!(
+            "[grid]\ncells = [{CELLS}, {CELLS}]\nsize = [2.0, 2.0]\n[upper]\nrigid = true\n[upper.profile.heights]\nvalues = {{ array = 0 }}\n\
+             [lower]\nsubstrate = {{ young = 1.0, poisson = 0.2 }}\n[friction]\ncoefficient = 0.3\n[solver]\ntolerance = 1e-9\n{FINITE}\
+             [[load]]\nnormal_force = 0.0\n{first}\nincrements = 1\n[[load]]\nnormal_force = 3e-3\nincrements = 2\n\
+             [[load]]\ntwist_moment = 1.5e-4\ntangential_force = [1e-4, 2e-4]\nincrements = 3\n"
+        )
+    };
+    let there = solved_with(&case(&format!("twist = {FRAC_PI_2:?}")), std::slice::from_ref(&heights));
+    let here = solved_with(&case(""), &[turned_left(&heights)]);
+    let [one, other] = [&there, &here].map(|history| history.steps.last().unwrap());
+    println!("turned by {:.8e} there, {:.8e} here", one.twist - FRAC_PI_2, other.twist);
+    // The angle has lost five digits beside a right one.
+    assert!(((one.twist - FRAC_PI_2) / other.twist - 1.0).abs() < 1e-5 && other.twist > 0.0);
+    for axis in 0..2 {
+        let [one, other] = [&there, &here].map(|history| &history.state.shear[axis]);
+        assert!(largest(&(one - other)) < 1e-6 * largest(other), "{:e}", largest(&(one - other)));
+    }
 }

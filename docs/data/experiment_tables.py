@@ -150,9 +150,10 @@ def titanium_debris(of: Measured, moving: Measured) -> Table:
     seen = {row["shape"]: row for row in of["arnaud"]["rows"]}
     found = moving["arnaud"]
     names = [
-        ("U", "U, debris kept", "U"),
-        ("W", f"W, debris kept, rim of {found['rim']:.2f} mm", "W"),
-        ("W_by_power", f"W, debris kept, rim of {found['rim_by_power']:.2f} mm", "W"),
+        ("U", f"U, {found['fraction']:.2f} of the debris stays", "U"),
+        ("U_of_model", f"U, {found['fraction_of_model']:.2f} stays", "U"),
+        ("W", f"W, {found['fraction_of_model']:.2f} stays, rim of {found['rim']:.2f} mm", "W"),
+        ("W_wider", f"W, {found['fraction_of_model']:.2f} stays, rim of {found['wider_rim']:.2f} mm", "W"),
     ]
     rows = []
     for key, text, shape in names:
@@ -225,12 +226,12 @@ def moving_numbers(of: Measured, moving: Measured) -> dict[str, str]:
     depths = {row["stroke"]: row["depth"] for row in moving["fouvry_2007"]}
     coarser = [abs(row["coarser"] / row["depth"] - 1) for row in moving["fouvry_2007"]]
     titanium = moving["arnaud"]
-    u, w, by_power = titanium["U"], titanium["W"], titanium["W_by_power"]
+    u = titanium["U"]
     rows = {row["shape"]: row for row in of["arnaud"]["rows"]}
     off = {
-        f"{name}_{part}": percent(found[part] / rows[shape][key] - 1)
-        for name, found, shape in (("u", u, "U"), ("w", w, "W"), ("power", by_power, "W"))
-        for part, key in (("half_width", "half_width_mm"), ("depth", "deepest_mm"), ("middle", "middle_mm"), ("area", "area_mm2"))
+        f"{name}_{part}": percent(titanium[key][part] / rows[shape][seen_as] - 1)
+        for name, key, shape in (("u", "U", "U"), ("model", "U_of_model", "U"), ("w", "W", "W"), ("wider", "W_wider", "W"))
+        for part, seen_as in (("half_width", "half_width_mm"), ("depth", "deepest_mm"), ("middle", "middle_mm"), ("area", "area_mm2"))
     }  # fmt: skip
     return {
         "moving_depth": percent(scar["depth"] / seen["depth"] - 1),
@@ -245,9 +246,13 @@ def moving_numbers(of: Measured, moving: Measured) -> dict[str, str]:
         "moving_coating_error": " and ".join(percent(depths[stroke] / before - 1) for stroke in (50.0, 100.0)),
         "moving_coating_grid": percent(max(coarser)).lstrip("+"),
         "debris_fraction": f"{titanium['fraction']:.2f}",
+        "debris_fraction_of_model": f"{titanium['fraction_of_model']:.2f}",
+        "debris_power": f"{titanium['power']:.3f}",
         "debris_rim": f"{titanium['rim']:.2f}",
-        "debris_rim_by_power": f"{titanium['rim_by_power']:.2f}",
+        "debris_wider_rim": f"{titanium['wider_rim']:.2f}",
+        "debris_w_deepest_at": f"{titanium['W']['deepest_at']:.1f}",
         "debris_energy": f"{u['energy_per_length']:.0f}",
+        "debris_w_energy": f"{titanium['W']['energy_per_length']:.0f}",
         "debris_middle": f"{u['debris']:.3f}",
         **{f"debris_{name}": text for name, text in off.items()},
     }

@@ -203,18 +203,20 @@ def moving_scars() -> dict[str, Any]:
             }
             balls.append({"stroke": 1e3 * stroke, "depth": found[64], "coarser": found[32]})
             print(balls[-1], flush=True)
-        modulus = analytic.effective_moduli(upper=scars.TITANIUM, lower=scars.TITANIUM).normal
-        hertz = analytic.hertz_line(radius=80.0, line_force=1066.0, modulus=modulus)
-        width = scars.rim_by_power(
-            QUOTED["arnaud_2021"]["power_threshold_W_per_mm2"], 2.0, hertz.max_pressure, hertz.half_width
-        )
+        model = QUOTED["arnaud_2021"]
+        power = scars.friction_power(2.0, next(s["half_width_mm"] for s in model["scars"] if s["shape"] == "W"))
+        rim, wider = (scars.reach_of_oxygen(power, model["oxygen"], of_porosity) for of_porosity in (1.5, 1.0))
+        fraction = model["debris_fraction"]
         titanium = {
             "fraction": scars.FRACTION,
-            "rim": scars.RIM,
-            "rim_by_power": width,
+            "fraction_of_model": fraction,
+            "power": power,
+            "rim": rim,
+            "wider_rim": wider,
             "U": _titanium(scars.titanium_with_debris(240)),
-            "W": _titanium(scars.titanium_with_debris(240, scars.RIM)),
-            "W_by_power": _titanium(scars.titanium_with_debris(240, width)),
+            "U_of_model": _titanium(scars.titanium_with_debris(240, fraction=fraction)),
+            "W": _titanium(scars.titanium_with_debris(240, rim, fraction)),
+            "W_wider": _titanium(scars.titanium_with_debris(240, wider, fraction)),
         }
     return {"mccoll": mccoll, "fouvry_2007": balls, "arnaud": titanium}
 

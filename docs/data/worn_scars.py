@@ -201,14 +201,25 @@ ALPHA = {"rim": (5.1e-4 + 4.1e-4) / 2, "interior": (1.0e-4 + 1.0e-5) / 2}
 """Wear of both bodies by energy in the model of Arnaud and others [mm3/J], each body with half of it."""
 FRACTION = 0.94
 """What stays of the debris, fitted to the half-width of the U scar."""
-RIM = 0.65
-"""Width of the rim [mm], fitted to the depth of the W scar."""
+DIFFUSION = 20.6
+"""Diffusion coefficient of oxygen in nitrogen at room temperature [mm2/s]."""
 
 
-def rim_by_power(threshold: float, frequency: float, max_pressure: float, half_width: float) -> float:
-    """Return the width of the rim of a Hertzian contact where the power ``4 mu p s f`` is below a threshold [W/mm2]."""
-    pressure = 1e3 * threshold / (4 * 0.6 * 0.075 * frequency)
-    return half_width * (1 - float(np.sqrt(max(1 - (pressure / max_pressure) ** 2, 0.0))))
+def friction_power(frequency: float, half_width: float) -> float:
+    """Return the friction power ``4 mu P s f/(2 a)`` of the tests by area of a contact of a half-width [W/mm2]."""
+    return 4 * 0.6 * 1066.0 * 0.075 * frequency / (2e3 * half_width)
+
+
+def reach_of_oxygen(power: float, model: dict[str, float], power_of_porosity: float) -> float:
+    """Return how far oxygen comes in from the rim [mm] at a friction power [W/mm2].
+
+    Diffusion through debris in which it is used up at the rate ``r``: ``sqrt(D/r) ln(p0/p)`` to where its pressure has
+    fallen from ``p0`` outside to the threshold ``p``. `model`: the constants of Arnaud and others. ``D`` is that of the
+    gas times the porosity to a power, 3/2 by Bruggeman and at most 1.
+    """
+    rate = model["rate_per_s"] * (power / model["at_W_per_mm2"]) ** model["exponent"]
+    diffusion = DIFFUSION * model["porosity"] ** power_of_porosity
+    return math.sqrt(diffusion / rate) * math.log(model["outside_Pa"] / model["threshold_Pa"])
 
 
 def titanium_with_debris(cells: int, width: float | None = None, fraction: float = FRACTION) -> fretting.History:

@@ -3,8 +3,8 @@
 Arnaud, Baydoun and Fouvry (2021): cylinder R = 80 mm on a flat, 1066 N/mm, sliding +-75 um, 5000 cycles. Thickness lost
 by both bodies together: published half-width and depths (dots; +-0.1 mm, +-5 um), the cap that bodies which keep
 touching leave for the same worn area (dashed), the program with a constant wear coefficient, 256 cells, and with debris
-that stays (0.94 of it, fitted to the half-width of the U scar; in (b) with a rim of 0.65 mm, fitted to the depth), 240
-cells. (a) 0.1 Hz, U scar. (b) 2 Hz, W scar.
+that stays, 240 cells: in (a) 0.94 of it, fitted to the half-width; in (b) 0.85 of it and a rim of 1.08 mm, by the
+constants of their model. (a) 0.1 Hz, U scar. (b) 2 Hz, W scar.
 """
 
 import json

@@ -182,16 +182,26 @@ def test_debris_leaves_titanium_as_deep_a_scar_as_measured(scars: Any) -> None:
     assert worn.max() > 7 * half**2 / 160  # many times what these alone could have left
 
 
-def test_a_rim_leaves_a_scar_that_is_deepest_beside_its_middle_and_its_middle_is_missed(scars: Any) -> None:
-    scar = next(row for row in QUOTED["arnaud_2021"]["scars"] if row["shape"] == "W")
-    history = scars.titanium_with_debris(96, scars.RIM)
+def test_the_constants_of_the_model_leave_a_w_scar_whose_middle_is_missed(scars: Any) -> None:
+    of = QUOTED["arnaud_2021"]
+    scar = next(row for row in of["scars"] if row["shape"] == "W")
+    power = scars.friction_power(2.0, scar["half_width_mm"])
+    rim, wider = (scars.reach_of_oxygen(power, of["oxygen"], porosity) for porosity in (1.5, 1.0))
+    # by hand: 218.64 (0.1066/0.024)^0.94 = 888/s; 20.6 mm2/s times 0.48^1.5 = 6.85 and times 0.48 = 9.89;
+    # ln 212 780 = 12.27
+    assert rim == pytest.approx((6.85 / 888) ** 0.5 * 12.27, rel=2e-3)
+    assert wider == pytest.approx((9.89 / 888) ** 0.5 * 12.27, rel=2e-3)
+    history = scars.titanium_with_debris(96, rim, of["debris_fraction"])
     place, worn = history.x, history.field("worn_depth")
     middle, deepest = worn[len(place) // 2], place[worn.argmax()]
-    assert worn.max() == pytest.approx(scar["deepest_mm"], rel=0.05)  # to which the rim is fitted
-    assert abs(deepest) == pytest.approx(scar["deepest_at_mm"], abs=0.35)
+    # nothing is fitted: to what was read off the printed scar, +-5 um and +-0.1 mm
+    assert worn.max() == pytest.approx(scar["deepest_mm"], abs=0.005)
+    assert worn.sum() * (place[1] - place[0]) == pytest.approx(scar["area_mm2"], rel=0.05)
+    assert abs(deepest) == pytest.approx(scar["deepest_at_mm"], abs=0.2)
     assert worn.max() / middle > scar["deepest_mm"] / scar["middle_mm"] > 1
-    assert middle / scar["middle_mm"] - 1 == pytest.approx(-0.41, abs=0.03)  # as the page says
-    assert scars.width(place, worn, 0.01) / scar["half_width_mm"] - 1 == pytest.approx(-0.11, abs=0.03)
+    # as the page says, where it fails; an edge is known to a part of a cell of 0.06 mm
+    assert middle / scar["middle_mm"] - 1 == pytest.approx(-0.25, abs=0.03)
+    assert scars.width(place, worn, 0.01) / scar["half_width_mm"] - 1 == pytest.approx(0.07, abs=0.03)
 
 
 def test_the_wear_by_energy_of_the_model_is_that_of_the_printed_volumes(scars: Any) -> None:

@@ -46,8 +46,29 @@ pub fn heat(arguments: &HeatArguments) -> Result<Answer, Failure> {
     }
     let pool = arguments.manner.threads.pool()?;
     let every = arguments.every.map(|every| every as usize);
-    let (record, text) = pool.install(|| computed(folder, &run, every))?;
+    let Some((record, text)) = pool.install(|| computed(folder, &run, every))? else {
+        return Err(without_answer(folder, &run));
+    };
     Ok(Answer::new(json!(record), text, arguments.manner.quiet))
+}
+
+/// Why there is nothing to tell: no temperature is asked for, and no resistance is one of both bodies.
+fn without_answer(folder: &Path, run: &Results) -> Failure {
+    let conduction = &run.case().conduction;
+    let one_conducts = [&conduction.thermal, &conduction.electrical].iter().all(|pair| both(pair).is_none());
+    let (why, help) = if one_conducts {
+        (
+            "one body alone conducts, so the contact has no resistance, and without a frequency there is no temperature",
+            "[thermal] frequency = ... for the temperature of that body; thermal_conductivity or electrical_resistivity in all layers of the \
+             other one for the resistance; give them with --case FILE",
+        )
+    } else {
+        (
+            "pressure is kept of no increment, and without it nothing says where the bodies touch",
+            "run the case again with pressure among the fields of [output]",
+        )
+    };
+    Failure::Call(format!("{}: {why}", folder.display()), help.to_owned())
 }
 
 /// Temperatures and resistances of a run that has just ended; nothing of what has none: a line contact, a run without kept fields.
@@ -56,7 +77,7 @@ pub fn answered(folder: &Path) -> Result<Option<(HeatRecord, String)>, Failure> 
     let has_none = run.case().conduction.is_none()
         || run.grid().dimension() == Dimension::Line
         || run.fields.reached.is_empty();
-    if has_none { Ok(None) } else { computed(folder, &run, None).map(Some) }
+    if has_none { Ok(None) } else { computed(folder, &run, None) }
 }
 
 fn of([lower, upper]: &[Option<Conductor>; 2]) -> [Option<&Conductor>; 2] {
@@ -69,8 +90,12 @@ fn both(pair: &[Option<Conductor>; 2]) -> Option<[Option<&Conductor>; 2]> {
     conductors.iter().all(Option::is_some).then_some(conductors)
 }
 
-/// What is written, and what a person reads.
-fn computed(folder: &Path, run: &Results, every: Option<usize>) -> Result<(HeatRecord, String), Failure> {
+/// What is written, and what a person reads; nothing where there is nothing to tell.
+fn computed(
+    folder: &Path,
+    run: &Results,
+    every: Option<usize>,
+) -> Result<Option<(HeatRecord, String)>, Failure> {
     let started = Instant::now();
     let ([first, last], _) = run.last_cycle();
     memory::check(memory_of_stress(run.grid().len(), last + 1 - first))?;
@@ -78,6 +103,10 @@ fn computed(folder: &Path, run: &Results, every: Option<usize>) -> Result<(HeatR
         Some(frequency) => Some((frequency, temperature(folder, run, frequency)?)),
         None => None,
     };
+    let resistance = resistances(folder, run, every)?;
+    if rise.is_none() && resistance.is_empty() {
+        return Ok(None);
+    }
     let place = folder_below(folder, Path::new("heat"))?;
     let rise = match rise {
         Some((frequency, (found, cycle, accounted))) => {
@@ -90,7 +119,7 @@ fn computed(folder: &Path, run: &Results, every: Option<usize>) -> Result<(HeatR
         status: "computed".to_owned(),
         unfinished: run.unfinished(),
         temperature: rise,
-        resistance: resistances(folder, run, every)?,
+        resistance,
         wall_s: started.elapsed().as_secs_f64(),
     };
     write_whole(&place.join("heat.json"), format!("{:#}\n", json!(record)).as_bytes())?;
@@ -103,7 +132,7 @@ fn computed(folder: &Path, run: &Results, every: Option<usize>) -> Result<(HeatR
         };
     }
     let _ = write!(table, "\nwritten to {} in {}", place.display(), duration(record.wall_s));
-    Ok((record, table))
+    Ok(Some((record, table)))
 }
 
 /// Temperature rise over the last cycle, the cycle, and the fraction of its energy that the kept fields account for.
@@ -166,7 +195,19 @@ fn unanswered(folder: &Path, error: &ConductionError) -> Failure {
     match error {
         ConductionError::Kernel(_) => Failure::Defect(format!("conduction kernels: {error}")),
         ConductionError::Unsolved(_) => Failure::Defect(format!("conduction: {error}")),
-        _ => Failure::Call(format!("{shown}: {error}"), String::new()),
+        ConductionError::Line => Failure::Call(
+            format!("{shown}: {error}"),
+            "run a contact of finite length: cells = [x, y], and no period or two".to_owned(),
+        ),
+        ConductionError::Periodic => Failure::Call(
+            format!("{shown}: {error}"),
+            "leave [thermal] frequency out: the contact resistance of a period does not need it".to_owned(),
+        ),
+        _ => Failure::Call(
+            format!("{shown}: {error}"),
+            "thermal_conductivity or electrical_resistivity in the layers of a case; give it with --case FILE"
+                .to_owned(),
+        ),
     }
 }
 

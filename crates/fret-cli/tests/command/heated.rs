@@ -101,3 +101,46 @@ fn increments_that_were_not_kept_are_named() {
         refused.err
     );
 }
+
+/// A run of a line contact is told that it has no answer and what has one; so is one of which one body alone conducts and no temperature is asked for.
+#[test]
+fn what_has_no_heat_to_tell_is_refused_with_a_way_out() {
+    let bench = Bench::new("heat-without-answer");
+    let line = CASE
+        .replace("cells = [32, 32]\nsize = [140e-6, 140e-6]", "cells = 32\nsize = 4e-5\ndatum = 1e-2")
+        .replace("[profile.sphere]\n", "[profile.cylinder]\naxis = \"y\"\n")
+        .replace("[thermal]\nfrequency = 100.0\n", "");
+    bench.file("line.toml", &line);
+    let run = bench.fret(&["run", "line.toml", "--out", "line"]);
+    assert_eq!(run.code, Some(0), "{}", run.err);
+    let refused = bench.fret(&["heat", "line"]);
+    assert_eq!(refused.code, Some(1), "{}", refused.out);
+    assert!(
+        refused.err.contains("along an infinite line")
+            && refused.err.contains("finite length: cells = [x, y]"),
+        "{}",
+        refused.err
+    );
+    let one = CASE
+        .replace(", thermal_conductivity = 15.0, electrical_resistivity = 6e-7", "")
+        .replace("[thermal]\nfrequency = 100.0\n", "");
+    bench.file("one.toml", &one);
+    let run = bench.fret(&["run", "one.toml", "--out", "one"]);
+    assert_eq!(run.code, Some(0), "{}", run.err);
+    assert!(!bench.folder.join("one/heat").exists());
+    let refused = bench.fret(&["heat", "one"]);
+    assert_eq!(refused.code, Some(1), "{}", refused.out);
+    assert!(
+        refused.err.contains("one body alone conducts") && refused.err.contains("frequency = ..."),
+        "{}",
+        refused.err
+    );
+    // With a frequency all of the heat goes into the body that conducts.
+    let asked = one + "[thermal]\nfrequency = 100.0\n";
+    bench.file("asked.toml", &asked);
+    let answer = bench.fret(&["heat", "one", "--case", "asked.toml", "--json"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    let record: Value = serde_json::from_str(&answer.out).unwrap();
+    assert_eq!(record["temperature"]["lower_fraction"], 1.0);
+    assert_eq!(record["resistance"].as_array().unwrap().len(), 0);
+}

@@ -2,7 +2,7 @@
 
 use super::file::CaseFile;
 use super::judge::Judge;
-use super::misfits::{Loading, twist_by_moment};
+use super::misfits::Loading;
 use super::side::Side;
 use super::surface_file::OfFile;
 use crate::document::At;
@@ -20,7 +20,7 @@ const FINITE: &str = "kinematics.displacement = \"finite\"";
 
 /// How the surfaces move; refuses what they cannot be combined with.
 pub(super) fn kinematics(judge: &mut Judge, concerned: &Concerned<'_>) -> Kinematics {
-    let Concerned { file, loading } = concerned;
+    let Concerned { file, .. } = concerned;
     let given = file.kinematics.as_ref().and_then(|given| given.value.displacement.as_ref());
     let moves_with = file.friction.as_ref().and_then(|friction| friction.moves_with.as_ref());
     let displacement = given.map_or_else(Displacement::default, |given| given.value);
@@ -44,12 +44,6 @@ pub(super) fn kinematics(judge: &mut Judge, concerned: &Concerned<'_>) -> Kinema
         }
         return kinematics;
     }
-    let why = format!("twist_moment with {FINITE}: surfaces are turned by a twist that is prescribed");
-    twist_by_moment(
-        judge,
-        *loading,
-        (&why, "twist, the angle; or no twist_moment: the upper body then does not turn"),
-    );
     let one_axis = |periodic: &At<Periodicity>| periodic.value.one_axis().is_some();
     let periodic = file.grid.periodic.as_ref().filter(|periodic| one_axis(periodic));
     let beyond = file.grid.beyond.as_ref().filter(|beyond| !beyond.value.is_body());
@@ -113,10 +107,10 @@ mod tests {
         assert!(read(BALL, &[MOVES]).kinematics.is_finite() && read(BALL, &[]).kinematics.is_default());
         let wear = with("increments = 1\n[wear]\ncoefficient = 1e-3\n");
         refused(BALL, &[MOVES, wear], "each wears in its own frame", "1e-3");
-        let twist = with("increments = 1\n[[load]]\ntwist = 1e-3\nincrements = 1\n");
-        assert!(read(BALL, &[MOVES, twist]).kinematics.is_finite());
-        let moment = with("increments = 1\n[[load]]\ntwist_moment = 1e-3\nincrements = 1\n");
-        refused(BALL, &[MOVES, moment], "a twist that is prescribed", "1e-3");
+        for turn in ["twist", "twist_moment"] {
+            let turn = format!("increments = 1\n[[load]]\n{turn} = 1e-3\nincrements = 1\n");
+            assert!(read(BALL, &[MOVES, with(&turn)]).kinematics.is_finite());
+        }
         let ends = ("size = [3.0, 3.0]", "size = [3.0, 3.0]\nbeyond = \"no body\"");
         refused(BALL, &[MOVES, ends], "which body ends there", "\"no body\"");
         let map = ("coefficient = 0.3\n", "coefficient = 0.3\nmoves_with = \"upper\"\n");

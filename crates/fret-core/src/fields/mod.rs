@@ -19,7 +19,7 @@ pub use arithmetic::{add_scaled, dot, largest, lower, norm, scale, sum};
 pub use dual::Dual;
 pub use each_cell::{CellRule, CellSize, convert, each_cell, largest_of};
 pub use in_plane::InPlane;
-pub use moved::{Outside, carried};
+pub use moved::{Outside, carried, carried_by_whole_cells};
 pub use portions::{in_portions, pieces};
 pub use registers::{Number, Reals};
 pub use room::reset;

@@ -1,7 +1,7 @@
 //! Fields carried over the grid: by whole cells, where values stay as they are to the bit, and by a part of a cell, where the sum of all
 //! values stays.
 
-use ndarray::{Array2, ArrayViewMut1, Axis};
+use ndarray::{Array2, ArrayViewMut1, Axis, s};
 
 /// What lies beyond the edge of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,12 +14,26 @@ pub enum Outside {
     Repeats,
 }
 
+impl Outside {
+    /// Which of `count` places has what lies at an index, which may be beyond them; `None`: nothing lies there.
+    fn index(self, index: isize, count: usize) -> Option<usize> {
+        match self {
+            Self::Repeats => Some(index.rem_euclid(count as isize) as usize),
+            Self::Edge => Some(index.clamp(0, count as isize - 1) as usize),
+            Self::Zero => usize::try_from(index).ok().filter(|index| *index < count),
+        }
+    }
+}
+
 /// A field whose content is carried along by `cells` towards higher indices, a number for each axis.
 ///
 /// Values are means over cells. Carried by a part of a cell, the content of each cell is a straight line whose slope is limited so that
 /// nothing new rises or sinks (van Leer 1977, J. Comput. Phys. 23, 276): exact for a straight line, of second order for a smooth field, and
 /// what one cell gives the next one takes, so that the sum stays to rounding where nothing passes the edge. Carried by whole cells, to the bit.
 pub fn carried(field: &Array2<f64>, cells: [f64; 2], outside: Outside) -> Array2<f64> {
+    if cells.iter().all(|by| by.fract() == 0.0) {
+        return carried_by_whole_cells(field, cells.map(|by| by as isize), (outside, 0.0));
+    }
     let mut moved = field.clone();
     for (axis, by) in cells.into_iter().enumerate() {
         if by != 0.0 {
@@ -31,17 +45,39 @@ pub fn carried(field: &Array2<f64>, cells: [f64; 2], outside: Outside) -> Array2
     moved
 }
 
+/// A field of anything carried along by whole `cells`; `nothing` is what lies outside where that is nothing.
+pub fn carried_by_whole_cells<A: Copy>(
+    field: &Array2<A>,
+    cells: [isize; 2],
+    (outside, nothing): (Outside, A),
+) -> Array2<A> {
+    let (nx, ny) = field.dim();
+    let from = |count: usize, by: isize| -> Vec<Option<usize>> {
+        (0..count as isize).map(|to| outside.index(to - by, count)).collect()
+    };
+    let (rows, columns) = (from(nx, cells[0]), from(ny, cells[1]));
+    // Along y all but what comes over the edge is one piece.
+    let first = cells[1].clamp(0, ny as isize) as usize;
+    let end = (ny as isize + cells[1]).clamp(first as isize, ny as isize) as usize;
+    let from_first = (first as isize - cells[1]).clamp(0, (ny - (end - first)) as isize) as usize;
+    let mut moved = Array2::from_elem((nx, ny), nothing);
+    for (mut to, row) in moved.rows_mut().into_iter().zip(rows) {
+        let Some(row) = row else { continue };
+        let from = field.row(row);
+        to.slice_mut(s![first..end]).assign(&from.slice(s![from_first..from_first + (end - first)]));
+        for j in (0..first).chain(end..ny) {
+            if let Some(column) = columns[j] {
+                to[j] = from[column];
+            }
+        }
+    }
+    moved
+}
+
 /// Carries one lane of a field.
 pub(super) fn carry(lane: &mut ArrayViewMut1<'_, f64>, by: f64, outside: Outside) {
     let from: Vec<f64> = lane.iter().copied().collect();
-    let count = from.len() as isize;
-    let at = |index: isize| match outside {
-        Outside::Repeats => from[index.rem_euclid(count) as usize],
-        Outside::Edge => from[index.clamp(0, count - 1) as usize],
-        Outside::Zero => {
-            usize::try_from(index).ok().and_then(|index| from.get(index)).copied().unwrap_or(0.0)
-        }
-    };
+    let at = |index: isize| outside.index(index, from.len()).map_or(0.0, |index| from[index]);
     let whole = by.floor();
     let part = by - whole;
     let first = |to: usize| to as isize - whole as isize;
@@ -113,6 +149,27 @@ mod tests {
             field
         );
         assert_eq!(carried(&field, [1.0, 0.0], Outside::Edge).row(0), field.row(0));
+    }
+
+    /// Farther than the field is wide, too, and what is no number.
+    #[test]
+    fn whole_cells_come_from_where_they_were_or_from_outside() {
+        let field = Array2::from_shape_fn((4, 3), |(i, j)| 10 * i + j);
+        for cells in [[0, 0], [1, -2], [-3, 3], [2, 5], [-7, -9]] {
+            for outside in [Outside::Zero, Outside::Edge, Outside::Repeats] {
+                let moved = carried_by_whole_cells(&field, cells, (outside, 99));
+                for ((i, j), value) in moved.indexed_iter() {
+                    let [x, y] = [i as isize - cells[0], j as isize - cells[1]];
+                    let expected = match outside {
+                        Outside::Zero if (0..4).contains(&x) && (0..3).contains(&y) => 10 * x + y,
+                        Outside::Zero => 99,
+                        Outside::Edge => 10 * x.clamp(0, 3) + y.clamp(0, 2),
+                        Outside::Repeats => 10 * x.rem_euclid(4) + y.rem_euclid(3),
+                    };
+                    assert_eq!(*value as isize, expected, "{cells:?} {outside:?} {i} {j}");
+                }
+            }
+        }
     }
 
     /// Sum, sign and order of what is carried by a part of a cell.

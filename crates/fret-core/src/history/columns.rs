@@ -104,7 +104,12 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
     }),
     real("shift_x", "rigid tangential displacement of the upper body along x", LENGTH, |step| step.shift[0]),
     real("shift_y", "rigid tangential displacement of the upper body along y", LENGTH, |step| step.shift[1]),
-    real("twist_moment", "moment about z on the lower body", WORK, |step| step.twist_moment),
+    real(
+        "twist_moment",
+        "moment about z on the lower body, about the middle of the grid, or of an upper body that moves over it",
+        WORK,
+        |step| step.twist_moment,
+    ),
     real("twist", "rotation of the upper body about z", ANGLE, |step| step.twist),
     real("max_pressure", "maximum contact pressure of a cell", PRESSURE, |step| step.max_pressure),
     real("max_shear", "maximum shear traction of a cell", PRESSURE, |step| step.max_shear),

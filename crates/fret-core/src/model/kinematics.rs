@@ -120,6 +120,12 @@ impl Motion {
         Place { cells: self.cells(shift), turned: self.angle(twist) }
     }
 
+    /// How far what is on the grid lies apart in two places, in cells, at the most: along an axis by the shift, and by the turn.
+    pub fn apart(&self, [one, other]: [Place; 2]) -> [f64; 2] {
+        let off = [0, 1].map(|axis| (other.cells[axis] - one.cells[axis]).abs());
+        [off[0].max(off[1]), (other.turned - one.turned).abs() * self.rim]
+    }
+
     /// What brings the upper surface from one place to another.
     pub fn between(&self, from: Place, to: Place) -> InPlane {
         InPlane {

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::accumulated::AccumulatedSlip;
 use super::load::LoadStep;
 use crate::fields::stored::{self, Number};
-use crate::fields::{Outside, carried, copied, is_zero};
+use crate::fields::{Outside, carried, carried_by_whole_cells, copied, is_zero};
 
 /// What a cell of the surface does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -139,12 +139,8 @@ impl ContactState {
     #[must_use]
     pub fn carried(&self, cells: [f64; 2]) -> Self {
         let moved = |field: &Array2<f64>| carried(field, cells, Outside::Zero);
-        let numbers = self.zone.mapv(|zone| f64::from(zone as u8));
-        let zone = moved(&numbers).mapv(|number| match number.round() as u8 {
-            1 => Zone::Stick,
-            2 => Zone::Slip,
-            _ => Zone::Open,
-        });
+        let whole = cells.map(|cells| cells as isize);
+        let zone = carried_by_whole_cells(&self.zone, whole, (Outside::Zero, Zone::Open));
         Self {
             pressure: moved(&self.pressure),
             shear: self.shear.each_ref().map(moved),

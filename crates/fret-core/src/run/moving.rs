@@ -17,11 +17,15 @@ use crate::model::{
 use crate::plan::{Coupling, Plan};
 use crate::solver::{ContactSolver, Increment, IterationCallback, SolveError, SolverMemory, Work};
 
-/// Rounds in which a shift that follows from a force and the place of the surfaces are found in alternation. A contact that sticks, or whose
-/// machine gives, moves in a round by a small part of what it moved in the one before.
+/// Rounds in which a shift or a twist that follows from a force or a moment and the place of the surfaces are found in alternation. A contact that
+/// sticks, or whose machine gives, moves in a round by a small part of what it moved in the one before.
 const MOST_ROUNDS: usize = 12;
 /// From this round on two places beside each other are taken for one.
 const TAKING_TURNS: usize = 4;
+/// By how much of a change of the twist that is taken the twist found changes, at the most, where the next one is looked for.
+const STEEPEST: f64 = 0.9;
+/// Two places are one where nothing on the grid lies in them farther apart than this, in cells.
+const SAME_PLACE: f64 = 1e-4;
 
 /// A solver, with what moves the surfaces from one increment to the next, where they move.
 pub struct Stepper<'a> {
@@ -48,6 +52,30 @@ pub struct Moving {
     moves_friction: bool,
     /// Where the gap that the solver has is that of; `None`: nowhere any more.
     at: Option<Place>,
+}
+
+/// Twists that were taken for that of a moment in the rounds of an increment, with those that were then found.
+#[derive(Default)]
+struct TurnByMoment {
+    /// The last twist taken and found [rad], and how far the upper surface lay shifted [cells].
+    last: Option<([f64; 2], [f64; 2])>,
+}
+
+impl TurnByMoment {
+    /// The next twist to take, after one was taken and another found: where a line through this round and the one before finds what it takes. A contact
+    /// that slides finds half of a turn, say, anew in each round.
+    fn next(&mut self, [taken, found]: [f64; 2], cells: [f64; 2]) -> f64 {
+        let last = self.last.replace(([taken, found], cells));
+        let Some(([taken_before, found_before], _)) = last.filter(|(_, before)| *before == cells) else {
+            return found;
+        };
+        let slope = (found - found_before) / (taken - taken_before);
+        if slope.is_finite() {
+            taken + (found - taken) / (1.0 - slope.clamp(-STEEPEST, STEEPEST))
+        } else {
+            found
+        }
+    }
 }
 
 /// How the upper body alone responds. Bodies that are similar do not couple as a pair; each alone does.
@@ -148,28 +176,39 @@ impl Moving {
         gap
     }
 
-    /// Where the upper body is brought by a load, as far as that prescribes it [length].
-    fn prescribed(load: &LoadStep, shift: [f64; 2]) -> ([f64; 2], bool) {
+    /// Where the upper body is brought by a load from a state, as far as that prescribes it: shift [length] and twist [rad]; and whether it does.
+    fn prescribed(load: &LoadStep, state: &ContactState) -> ([f64; 2], f64, bool) {
         use crate::model::Control::Motion;
-        let mut is_known = true;
-        let to = [0, 1].map(|axis| {
-            if let Motion(to) = load.tangential[axis] {
-                to
-            } else {
-                is_known = false;
-                shift[axis]
-            }
-        });
-        (to, is_known)
+        let controls = [load.tangential[0], load.tangential[1], load.twist];
+        let to = controls.map(|control| if let Motion(to) = control { Some(to) } else { None });
+        let or = |axis: usize, before: f64| to[axis].unwrap_or(before);
+        ([or(0, state.shift[0]), or(1, state.shift[1])], or(2, state.twist), !to.contains(&None))
     }
 
-    /// By how much more the upper surface moves over the grid by an increment of the twist [rad] about its own middle, half-way between two places, than
-    /// about the middle of the grid [length]; `None` where that is no more.
-    fn of_turn(&self, [from, to]: [Place; 2], twist: f64) -> Option<[Array2<f64>; 2]> {
+    /// Where the middle of the upper body is in a place [length].
+    fn middle(&self, place: Place) -> [f64; 2] {
         let spacing = self.grid.spacing();
-        let [x, y] = [0, 1].map(|axis| 0.5 * (from.cells[axis] + to.cells[axis]) * spacing[axis]);
+        [0, 1].map(|axis| place.cells[axis] * spacing[axis])
+    }
+
+    /// By how much more the upper surface moves over the grid by an increment of the twist [rad] about its own middle half-way between two places than
+    /// about where that is in the second one [length]; `None` where that is no more.
+    fn of_turn(&self, [from, to]: [Place; 2], twist: f64) -> Option<[Array2<f64>; 2]> {
+        let [from, to] = [from, to].map(|place| self.middle(place));
+        let [x, y] = [0, 1].map(|axis| 0.5 * (from[axis] - to[axis]));
         let more = (twist != 0.0 && [x, y] != [0.0; 2]).then_some([twist * y, -twist * x])?;
         Some(more.map(|along| Array2::from_elem(self.grid.cells(), along)))
+    }
+
+    /// How far a place and a twist that were taken, after a way [cells], are off those that were then found, in cells; and whether these are beside them.
+    /// Rounded to a hundredth, two places may take turns; so may a right angle, to which a twist beside it is rounded, and that twist.
+    fn off(&self, [(place, twist), (reached, found)]: [(Place, f64); 2], way: [f64; 2]) -> (f64, bool) {
+        let [off, turned_off] = self.motion.apart([place, reached]);
+        let of_turn = 0.5 * (found - twist).abs() * way[0].hypot(way[1]);
+        let off_by_turn = turned_off.max(of_turn);
+        let over_a_right_angle = (place.turned == twist) != (reached.turned == found);
+        let beside = off < 0.015 && (off_by_turn < SAME_PLACE || over_a_right_angle && off_by_turn < 0.006);
+        (off.max(off_by_turn), beside)
     }
 
     /// Whether cells in contact lie beside cells over which nothing is known of the upper body.
@@ -268,8 +307,8 @@ impl<'a> Stepper<'a> {
         self.solver.restore_memory(memory);
     }
 
-    /// Solves one increment, with the surfaces where they are at its end: where a force or a spring moves the upper body, by rounds until the
-    /// place is that of the shift found.
+    /// Solves one increment, with the surfaces where they are at its end: where a force, a spring or a moment moves the upper body, by rounds until
+    /// the place is that of the shift and the twist found.
     ///
     /// # Errors
     /// As [`ContactSolver::step`]; that it does not converge, when the rounds do not.
@@ -285,13 +324,12 @@ impl<'a> Stepper<'a> {
         }
         let Some(moving) = moving else { return solver.step(state, load, watch) };
         let from = moving.motion.place(state.shift, state.twist);
-        let (to, is_known) = Moving::prescribed(load, state.shift);
-        let twist = load.twist.motion().unwrap_or(state.twist);
+        let (to, mut twist, is_known) = Moving::prescribed(load, state);
         let mut place = moving.motion.place(to, twist);
         let memory = (!is_known).then(|| solver.memory().clone());
         let gap_before = moving.gap_at(state, from);
         let (mut before, mut work) = (None, Work::default());
-        let mut round = 1;
+        let (mut round, mut turn) = (1, TurnByMoment::default());
         loop {
             let way = moving.motion.between(from, place);
             let moves = !way.is_none();
@@ -322,6 +360,7 @@ impl<'a> Stepper<'a> {
             };
             let by = if way.turns() { [way.farthest(&state.pressure).max(1.0); 2] } else { way.by };
             solver.set_carried(along, gap.map(|gap| gap - &gap_before), by);
+            solver.set_pole(moving.middle(place));
             let solved = solver.step(state, load, watch);
             solver.set_carried(None, None, [0.0; 2]);
             let mut solved = solved?;
@@ -329,11 +368,10 @@ impl<'a> Stepper<'a> {
             if moving.touches_unknown(solver.undeformed(), &solved.state.pressure) {
                 return Err(SolveError::ContactAtEdge);
             }
-            let reached = moving.motion.place(solved.state.shift, solved.state.twist);
-            let off = (0..2).map(|axis| (reached.cells[axis] - place.cells[axis]).abs()).fold(0.0, f64::max);
-            // Rounded to a hundredth, two places may take turns.
-            let takes_turns = round >= TAKING_TURNS && off < 0.015;
-            if is_known || reached == place || takes_turns {
+            let found = solved.state.twist;
+            let reached = moving.motion.place(solved.state.shift, found);
+            let (off, beside) = moving.off([(place, twist), (reached, found)], way.by);
+            if is_known || off < SAME_PLACE || round >= TAKING_TURNS && beside {
                 solved.work = work;
                 return Ok(solved);
             }
@@ -344,7 +382,9 @@ impl<'a> Stepper<'a> {
                 return Err(SolveError::NotConverged { reached: off, iterations: round });
             }
             round += 1;
-            place = reached;
+            let by_moment = load.twist.force().is_some();
+            let next = if by_moment { turn.next([twist, found], place.cells) } else { found };
+            (place, twist) = (moving.motion.place(solved.state.shift, next), next);
         }
     }
 }

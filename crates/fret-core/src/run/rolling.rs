@@ -112,8 +112,7 @@ impl Rolling {
                 let back = by.map(|by| -by);
                 let gap = solver.undeformed();
                 let moved = (by != [0.0; 2]).then(|| gap - &carried(gap, back, Outside::Edge));
-                let memory = solver.memory().clone();
-                solver.carry_memory(back.map(|back| back as isize));
+                let memory = solver.carry_memory(back.map(|back| back as isize));
                 solver.set_carried(of_spin, moved, by);
                 solver.set_rolled(by);
                 let solved = solver.step(&state.carried(back), load, watch);

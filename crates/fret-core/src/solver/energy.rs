@@ -112,8 +112,8 @@ impl IncrementProblem<'_> {
             }
             let shear = solved.tractions.shear.at(cell);
             let [x, y] = [0, 1].map(|axis| 0.5 * (state.shear[axis][at] + shear[axis]));
-            let [to_x, to_y] =
-                [moved[0] - turned * grid.centre(1, at[1]), moved[1] + turned * grid.centre(0, at[0])];
+            let [from_x, from_y] = self.arm(at);
+            let [to_x, to_y] = [moved[0] - turned * from_y, moved[1] + turned * from_x];
             let drift = solved.drift.at(cell);
             work += pressure * (approached + self.tilted(at, after.tilt)) + x * to_x + y * to_y;
             if let Some(moved) = &self.moved {

@@ -104,7 +104,7 @@ impl ContactSolver<'_> {
     ) -> Result<(Solved, ContactState, Outcome), SolveError> {
         let (grid, keeps_work) = (self.grid, self.settings.friction_work);
         let copies = self.symmetry.copies();
-        let bodies = (self.rig.of_part(copies), self.stretch(state, load));
+        let bodies = (self.rig.of_part(copies), self.stretch(state, load), self.pole);
         let (loads, surface) = ((state, load), (&*self.friction, self.coupling));
         let mut increment = IncrementProblem::new(
             (&grid, copies),
@@ -245,11 +245,13 @@ impl ContactSolver<'_> {
         } else if self.is_of_second_order() {
             let after = &increment.state;
             let shift = [0, 1].map(|axis| after.shift[axis] - state.shift[axis]);
+            let twist = after.twist - state.twist;
             let gap_before = self.memory.before.as_ref().and_then(|before| before.gap.as_ref());
             drift = Drift {
                 region: Some(region),
                 field: solved.drift,
-                motion: [shift[0], shift[1], after.twist - state.twist],
+                // about the middle of the grid
+                motion: [shift[0] + twist * self.pole[1], shift[1] - twist * self.pole[0], twist],
                 strain: self.stretch(state, load).strain,
                 ratio: pace.map_or(1.0, |pace| pace.loads),
                 knows_touch: gap_before.is_some() && pace.is_some_and(|pace| pace.edge.is_some()),

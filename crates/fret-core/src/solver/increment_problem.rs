@@ -92,11 +92,12 @@ impl<'a> IncrementProblem<'a> {
         (undeformed, tilt): (&Array2<f64>, [f64; 2]),
         (friction, coupling): (&CoulombFriction, Coupling),
         (state, load): (&'a ContactState, &'a LoadStep),
-        (rig, stretch): (Rig, Stretch),
+        (rig, stretch, pole): (Rig, Stretch, [f64; 2]),
         region: Region,
     ) -> Self {
         let rotates = state.twist != 0.0 || load.twist != Control::Motion(0.0);
-        let positions = CellPositions::new(centres(grid, region, 0), centres(grid, region, 1), rotates);
+        let positions =
+            CellPositions::new(centres(grid, region, 0), centres(grid, region, 1), rotates).about(pole);
         let area = grid.cell_area();
         Self {
             grid,

@@ -85,13 +85,12 @@ impl Drift {
         }
     }
 
-    /// Carries it over a grid by whole cells along each axis.
-    fn carry(&mut self, cells: [isize; 2], grid: [usize; 2]) {
-        if let Some(from) = self.region {
-            for field in [&mut self.field.x, &mut self.field.y] {
-                self.region = Some(from.carry(field, cells, grid));
-            }
-        }
+    /// The same with its fields carried over a grid.
+    fn carried(&self, carried: impl Fn(Region, &[f64]) -> (Vec<f64>, Region)) -> Self {
+        let Some(from) = self.region else { return self.clone() };
+        let (x, to) = carried(from, &self.field.x);
+        let (y, _) = carried(from, &self.field.y);
+        Self { region: Some(to), field: TangentialField { x, y }, ..*self }
     }
 
     fn fits(&self, cells: [usize; 2]) -> bool {
@@ -117,7 +116,7 @@ impl GridTractions {
     }
 
     /// Those of a contact that has travelled so many cells along each axis.
-    pub fn carried(self, cells: [f64; 2]) -> Self {
+    pub fn carried(&self, cells: [f64; 2]) -> Self {
         let moved = |field: &Array2<f64>| carried(field, cells, Outside::Zero);
         Self { pressure: moved(&self.pressure), shear: self.shear.each_ref().map(moved) }
     }
@@ -141,34 +140,47 @@ pub(super) struct LastIncrement {
 
 impl SolverMemory {
     /// The same of a contact whose bodies have been carried over a grid by whole cells along each axis. What comes onto the grid is as it is at its
-    /// edge; tractions are none there.
-    pub(super) fn carried(mut self, cells: [isize; 2]) -> Self {
+    /// edge; tractions are none there. Displacements and drifts are known there no more; where no contact is at the edge of the grid (`ends_inside`),
+    /// those of the cells along it do not matter, and what the whole grid was known of it is known of after a step of one cell, too.
+    pub(super) fn carried(&self, cells: [isize; 2], ends_inside: bool) -> Self {
         let by = cells.map(|cells| cells as f64);
         let whole = |field: &Array2<f64>| carried(field, by, Outside::Edge);
-        if let Some(last) = &mut self.last {
-            let from = last.region;
-            last.gap = whole(&last.gap);
+        let of_region = |from: Region, field: &[f64], grid: [usize; 2]| {
+            if ends_inside && from == Region::whole(grid) && cells.iter().all(|by| by.abs() <= 1) {
+                (from.carried_over_edges(field, cells), from)
+            } else {
+                from.carried(field, cells, grid)
+            }
+        };
+        let last = self.last.as_ref().map(|last| {
             let grid = last.gap.dim().into();
-            last.drift.carry(cells, grid);
-            let Displacements { normal, tangential } = &mut last.displacements;
-            for field in [normal, &mut tangential.x, &mut tangential.y] {
-                last.region = from.carry(field, cells, grid);
+            let Displacements { normal, tangential } = &last.displacements;
+            let [(normal, region), (x, _), (y, _)] =
+                [normal, &tangential.x, &tangential.y].map(|field| of_region(last.region, field, grid));
+            LastIncrement {
+                region,
+                displacements: Displacements { normal, tangential: TangentialField { x, y } },
+                drift: last.drift.carried(|from, field| of_region(from, field, grid)),
+                gap: whole(&last.gap),
+                ..*last
             }
-            if last.region.len() == 0 {
-                return Self { region: self.region, last_load: self.last_load, ..Self::default() };
-            }
+        });
+        if last.as_ref().is_some_and(|last| last.region.len() == 0) {
+            return Self { region: self.region, last_load: self.last_load, ..Self::default() };
         }
-        if let Some(before) = &mut self.before {
+        let before = self.before.as_ref().map(|before| {
             let grid = before.tractions.pressure.dim().into();
-            before.tractions = before.tractions.clone().carried(by);
-            if let Some(gap) = &mut before.gap {
-                *gap = whole(gap);
+            Before {
+                tractions: before.tractions.carried(by),
+                gap: before.gap.as_ref().map(whole),
+                drift: before
+                    .drift
+                    .as_ref()
+                    .map(|drift| drift.carried(|from, field| of_region(from, field, grid))),
+                ..*before
             }
-            if let Some(drift) = &mut before.drift {
-                drift.carry(cells, grid);
-            }
-        }
-        self
+        });
+        Self { last, before, last_cycle: self.last_cycle.clone(), ..*self }
     }
 
     /// All its fields that are linear in the tractions, the drifts and the gaps of the last states.

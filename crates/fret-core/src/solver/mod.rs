@@ -136,6 +136,8 @@ pub struct ContactSolver<'a> {
     travel: usize,
     /// By how much moving surfaces change the gap before deformation in the next increment [length].
     moved: Option<Array2<f64>>,
+    /// Where the bodies turn about in the next increment, and their moment counts [length].
+    pole: [f64; 2],
     /// Cells that the contact travels over both surfaces by in the next increment.
     rolled: [f64; 2],
 }
@@ -182,6 +184,7 @@ impl<'a> ContactSolver<'a> {
             friction_work: None,
             travel: 0,
             moved: None,
+            pole: [0.0; 2],
             rolled: [0.0; 2],
         }
     }
@@ -318,9 +321,12 @@ impl<'a> ContactSolver<'a> {
         self.set_tilt(tilt);
     }
 
-    /// The bodies have been carried over the grid by whole cells along each axis, with all that is known of their last states.
-    pub fn carry_memory(&mut self, cells: [isize; 2]) {
-        self.memory = std::mem::take(&mut self.memory).carried(cells);
+    /// The bodies have been carried over the grid by whole cells along each axis, with all that is known of their last states. What was remembered
+    /// before.
+    pub fn carry_memory(&mut self, cells: [isize; 2]) -> SolverMemory {
+        let ends_inside = self.beyond.is_body() && self.periodic.is_none();
+        let carried = self.memory.carried(cells, ends_inside);
+        std::mem::replace(&mut self.memory, carried)
     }
 
     /// Another bound on the residuals from the next increment on.
@@ -345,6 +351,11 @@ impl<'a> ContactSolver<'a> {
         self.carried = carried;
         self.moved = moved;
         self.travel = cells[0].abs().max(cells[1].abs()).ceil() as usize;
+    }
+
+    /// In the next increments the bodies turn about a place [length], and the moment counts about it: the middle of the grid otherwise.
+    pub fn set_pole(&mut self, pole: [f64; 2]) {
+        self.pole = pole;
     }
 
     /// Goes on with bodies that respond otherwise; `table`: their frequency response, where it is used. As with another gap, the displacements

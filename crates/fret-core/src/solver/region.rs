@@ -74,8 +74,8 @@ impl Region {
         Self { origin, shape: [0, 1].map(|axis| end[axis] - origin[axis]) }
     }
 
-    /// Carries its field over a grid by whole cells along each axis: the region where it lies now, without what has left the grid.
-    pub fn carry(&self, field: &mut Vec<f64>, cells: [isize; 2], grid: [usize; 2]) -> Self {
+    /// Its field carried over a grid by whole cells along each axis, and the region where it lies now: without what has left the grid.
+    pub fn carried(&self, field: &[f64], cells: [isize; 2], grid: [usize; 2]) -> (Vec<f64>, Self) {
         let mut to = Self { origin: [0; 2], shape: [0; 2] };
         let mut first = [0; 2];
         for axis in 0..2 {
@@ -86,12 +86,24 @@ impl Region {
             to.origin[axis] = inside as usize;
             to.shape[axis] = (end - inside) as usize;
         }
-        let kept = (0..to.len()).map(|cell| {
-            let [i, j] = [cell / to.shape[1].max(1), cell % to.shape[1].max(1)];
-            field[(first[0] + i) * self.shape[1] + first[1] + j]
-        });
-        *field = kept.collect();
-        to
+        let mut kept = Vec::with_capacity(to.len());
+        for row in field.chunks_exact(self.shape[1].max(1)).skip(first[0]).take(to.shape[0]) {
+            kept.extend_from_slice(&row[first[1]..first[1] + to.shape[1]]);
+        }
+        (kept, to)
+    }
+
+    /// Its field carried over by whole cells along each axis, in itself: what comes over its edge is as it is at the edge.
+    pub fn carried_over_edges(&self, field: &[f64], cells: [isize; 2]) -> Vec<f64> {
+        let [rows, columns] = self.shape;
+        let from =
+            |to: usize, by: isize, count: usize| (to as isize - by).clamp(0, count as isize - 1) as usize;
+        let mut kept = Vec::with_capacity(field.len());
+        for i in 0..rows {
+            let row = &field[from(i, cells[0], rows) * columns..][..columns];
+            kept.extend((0..columns).map(|j| row[from(j, cells[1], columns)]));
+        }
+        kept
     }
 
     /// The part of a tangential grid field.

@@ -48,7 +48,7 @@ pub(super) fn state_after(
     for (place, cell) in contact.cells().enumerate() {
         let at = region.at(cell);
         let [q, end] = [shear.at(place), end_slip.at(place)];
-        moment += grid.centre(0, at[0]) * q[1] - grid.centre(1, at[1]) * q[0];
+        moment += problem.moment_of(at, q);
         for axis in 0..2 {
             let place = problem.stretch.middle[axis] + grid.centre(axis, at[axis]);
             tilt_moment[axis] += place * pressure[cell];
@@ -123,6 +123,20 @@ pub(super) fn state_after(
     let contact_cells = contact.len();
     let outcome = Outcome { resultants, contact_cells, stick_cells, regime, residual };
     (state, outcome)
+}
+
+impl IncrementProblem<'_> {
+    /// The arm of a cell: from what the bodies turn about to where it is [length].
+    pub(super) fn arm(&self, at: [usize; 2]) -> [f64; 2] {
+        let pole = self.positions.pole();
+        [0, 1].map(|axis| self.grid.centre(axis, at[axis]) - pole[axis])
+    }
+
+    /// The moment of a shear in a cell by its arm [pressure x length].
+    fn moment_of(&self, at: [usize; 2], shear: [f64; 2]) -> f64 {
+        let [x, y] = self.arm(at);
+        x * shear[1] - y * shear[0]
+    }
 }
 
 /// Tractions and motions after an increment; slip, zones and dissipated energy are still those before.

@@ -21,6 +21,8 @@ pub struct RigidMotions {
 pub struct CellPositions {
     x: Vec<f64>,
     y: Vec<f64>,
+    /// Where the bodies rotate about [length].
+    pole: [f64; 2],
     /// Length that makes the rotation field of order one [length].
     pub length: f64,
     rotates: bool,
@@ -31,7 +33,17 @@ impl CellPositions {
     pub fn new(x: Vec<f64>, y: Vec<f64>, rotates: bool) -> Self {
         let largest = x.iter().chain(&y).fold(0.0_f64, |most, value| most.max(value.abs()));
         let length = if largest > 0.0 { largest } else { 1.0 };
-        Self { x, y, length, rotates }
+        Self { x, y, pole: [0.0; 2], length, rotates }
+    }
+
+    /// The same of bodies that rotate about a place [length].
+    pub fn about(self, pole: [f64; 2]) -> Self {
+        Self { pole, ..self }
+    }
+
+    /// Where they rotate about [length].
+    pub fn pole(&self) -> [f64; 2] {
+        self.pole
     }
 
     /// Those of cells twice as wide; the motions keep their units.
@@ -63,10 +75,11 @@ impl CellPositions {
     /// The motions of the cells in contact, with what is prescribed of them.
     pub fn motions_of(&self, contact: &ContactSet, loads: TangentialLoads) -> RigidMotions {
         let mut rotation = TangentialField::default();
+        let [pole_x, pole_y] = self.pole;
         if self.rotates {
             rotation = TangentialField::zeros(contact.len());
             for (place, cell) in contact.cells().enumerate() {
-                let (x, y) = (self.x[cell / self.y.len()], self.y[cell % self.y.len()]);
+                let (x, y) = (self.x[cell / self.y.len()] - pole_x, self.y[cell % self.y.len()] - pole_y);
                 rotation.set(place, [-y / self.length, x / self.length]);
             }
         }
