@@ -22,7 +22,7 @@ use crate::names::{CASE, CHECKPOINT, CYCLES, ERROR_BARS, FIELDS, HISTORY, RECORD
 use crate::place::refuse_links_below;
 use crate::results::Results;
 use crate::run_record::{Ending, Glance, Record, RunRecord, question};
-use crate::state_store::{StateStore, states_below};
+use crate::state_store::{StateStore, has_memory, states_below};
 use crate::tally::Tally;
 use crate::whole_file::write_whole;
 
@@ -343,7 +343,7 @@ impl ResultFolder {
         let tables = [(HISTORY, history.ok()), (CYCLES, cycles.ok())];
         let texts = tables.iter().filter_map(|(name, text)| Some((*name, text.as_deref()?)));
         let texts = texts.chain([(CASE, self.case_text.as_bytes())]);
-        let kept = (checksums(texts), states_below(&self.path));
+        let kept = (checksums(texts), states_below(&self.path), has_memory(&self.path));
         let record = self.record.ended((tally, warnings), wall_s, early.or(torn.as_ref()), kept);
         write_whole(&self.path.join(RECORD), &record)?;
         if let Some(lost) = lost {

@@ -18,7 +18,7 @@ use crate::history_table::cycles_of;
 use crate::names;
 use crate::record::read_record;
 use crate::run_record::Record;
-use crate::state_store::{lost_state, state_below, states_below};
+use crate::state_store::{lost_state, memory_below, state_below, states_below};
 use crate::table::Table;
 
 /// Bytes a cell of a field while it passes through.
@@ -65,6 +65,7 @@ impl Results {
         if let Some(lost) = lost_state(&self.path, &self.record) {
             return Err(damaged(lost));
         }
+        memory_below(&self.path, 0).map_err(damaged)?;
         states_below(&self.path)
             .into_iter()
             .try_for_each(|increment| state_below(&self.path, increment).map(drop).map_err(damaged))

@@ -112,6 +112,9 @@ pub struct End {
     /// Increments with a state to start from.
     #[serde(default)]
     pub states: Vec<usize>,
+    /// Whether what the solver remembered at the end lies beside them.
+    #[serde(default)]
+    pub memory: bool,
 }
 
 /// Sums over a history, and its last numbers.
@@ -200,13 +203,14 @@ impl RunRecord {
         self.written()
     }
 
-    /// As it stands after the run; `kept` are the checksums of what lies beside it, and the increments with a state.
+    /// As it stands after the run; `kept` are the checksums of what lies beside it, the increments with a state, and whether the solver's
+    /// memory is kept.
     pub fn ended(
         self,
         (tally, warnings): (&Tally, &[Warning]),
         wall_s: f64,
         early: Option<&Ending>,
-        (checksums, states): (BTreeMap<String, u32>, Vec<usize>),
+        (checksums, states, memory): (BTreeMap<String, u32>, Vec<usize>, bool),
     ) -> Vec<u8> {
         let end = End {
             message: early.map(|early| early.message.clone()),
@@ -216,6 +220,7 @@ impl RunRecord {
             totals: Totals::of(tally, wall_s),
             checksums,
             states,
+            memory,
         };
         let status = early.map_or("solved", |early| &early.status).to_owned();
         Self { status, warnings: warnings.to_vec(), end: Some(end), ..self }.written()

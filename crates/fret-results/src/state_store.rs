@@ -88,9 +88,12 @@ pub fn states_below(results: &Path) -> Vec<usize> {
 
 /// In words, which of the states that the record of a solved run lists is not there any more.
 pub fn lost_state(results: &Path, record: &Record) -> Option<String> {
-    let listed = &record.end.as_ref().filter(|_| record.is_solved())?.states;
+    let end = record.end.as_ref().filter(|_| record.is_solved())?;
+    if end.memory && !has_memory(results) {
+        return Some(format!("{}: missing", results.join(STATES).join(MEMORY).display()));
+    }
     let found = states_below(results);
-    let lost = listed.iter().find(|kept| !found.contains(kept))?;
+    let lost = end.states.iter().find(|kept| !found.contains(kept))?;
     Some(format!("{}: the state of increment {lost} is missing", results.display()))
 }
 
@@ -101,12 +104,17 @@ pub fn state_below(results: &Path, increment: usize) -> Result<SolvedState, Stri
     postcard::from_bytes(&bytes).map_err(|_| format!("{}: damaged", path.display()))
 }
 
+/// Whether what the solver remembered at the end of the run is kept.
+pub fn has_memory(results: &Path) -> bool {
+    results.join(STATES).join(MEMORY).exists()
+}
+
 /// What the solver remembers at the end of an increment: of the last one of a run of second order.
 pub fn memory_below(results: &Path, increment: usize) -> Result<Option<SolverMemory>, String> {
-    let path = results.join(STATES).join(MEMORY);
-    if !path.exists() {
+    if !has_memory(results) {
         return Ok(None);
     }
+    let path = results.join(STATES).join(MEMORY);
     let bytes = read_packed(&path, FIRST_LINE)?;
     let (last, memory): (usize, _) =
         postcard::from_bytes(&bytes).map_err(|_| format!("{}: damaged", path.display()))?;

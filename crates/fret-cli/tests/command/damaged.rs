@@ -86,12 +86,12 @@ fn what_is_missing_is_missed() {
     refused_by(&bench, "fields.zarr/zarr.json", gone, &[EXPORT, REPORT, STRESS, FROM, RESUME], "zarr.json");
     refused_by(&bench, "case.toml", gone, &[EXPORT, REPORT, STRESS], "case.toml");
     let states = std::fs::read_dir(bench.folder.join("run/states")).unwrap();
-    let last = states
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .max_by_key(|name| name.parse::<usize>().unwrap())
-        .unwrap();
+    let last =
+        states.filter_map(|entry| entry.unwrap().file_name().to_str()?.parse::<usize>().ok()).max().unwrap();
     refused_by(&bench, &format!("states/{last}"), gone, &[FROM, RESUME], "missing");
     refused_by(&bench, &format!("states/{last}"), flip(40), &[FROM, RESUME], "damaged");
+    refused_by(&bench, "states/memory", gone, &[FROM, RESUME], "missing");
+    refused_by(&bench, "states/memory", flip(40), &[FROM, RESUME], "damaged");
 }
 
 #[test]
