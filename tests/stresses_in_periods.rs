@@ -51,7 +51,7 @@ fn in_the_surface_the_stress_is_the_traction_of_each_cell() {
 /// leaves the mean open: that is the one of uniform tractions.
 #[test]
 fn stresses_are_those_of_rows_that_repeat_along_y_repeated_along_x() {
-    let (nu, coating) = ([0.25, 0.3], (3.0, 0.25, 0.4));
+    let (nu, coating) = ([0.25, 0.3], (3.0, 0.25, 0.2));
     let (across, period, spacing) = (7, 5, [0.2, 0.25]);
     let loads = [1.0, 2.0, 3.0].map(|seed: f64| {
         Array2::from_shape_fn((across, period), |(i, j)| ((3 * i + 5 * j) as f64 * seed).sin() + 0.5 * seed)
@@ -60,7 +60,7 @@ fn stresses_are_those_of_rows_that_repeat_along_y_repeated_along_x() {
     let grid = SurfaceGrid::new([across, period], spacing).unwrap();
     for coating in [None, Some(coating)] {
         let body = body(coating);
-        for (depth, layer) in [(0.0, 0), (0.13, 0), (0.4, 0), (0.4, 1), (0.9, 1)] {
+        for (depth, layer) in [(0.0, 0), (0.13, 0), (0.2, 0), (0.2, 1), (0.9, 1)] {
             let point = DepthPoint { depth, layer };
             let found = stress(&body, point, &grid, Periodicity::BOTH, &loads);
             let ends = [16, 32, 64, 128, 256, 512];
@@ -88,7 +88,7 @@ fn stresses_are_those_of_rows_that_repeat_along_y_repeated_along_x() {
                 let mean = sums.mean().unwrap();
                 for (place, value) in found.components[component].indexed_iter() {
                     let exact = sums[place] - mean + uniform[component];
-                    // what extrapolation leaves, of tractions up to 4
+                    // what extrapolation leaves, of tractions up to 4: the sixth power of the bodies' longest length over 16 of the grid
                     assert!(
                         (value - exact).abs() < 1e-9,
                         "{coating:?} {depth} {component} {place:?}: {value} {exact}"
