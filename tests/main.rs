@@ -65,6 +65,7 @@ mod shear_strength;
 mod sliding;
 mod stiff_and_extreme;
 mod stress_sensitivities;
+mod stresses_in_periods;
 mod subsurface;
 mod surfaces;
 mod thinning;

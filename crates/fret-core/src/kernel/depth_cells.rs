@@ -1,12 +1,15 @@
 //! Kernels at depth integrated over rectangular cells: stresses and displacements.
 
+use ndarray::{Array2, s};
+use rayon::prelude::*;
+
 use super::cell_integrals::Moments;
 use super::cells::{CellCoefficients, Tables, coefficients};
 use super::depth_response::DepthResponse;
 use super::lattice_samples::WaveResponse;
 use super::line_depth::line_stress_coefficients;
 use super::quartets::{DisplacementFromAll, StressFromAll, StressFromPressure};
-use super::repeated::{repeated, with_images};
+use super::repeated::{fold, repeated, window, with_images};
 
 /// xx, yy, zz, xy, xz, yz when x and y are exchanged.
 const STRESS_EXCHANGED: [usize; 6] = [1, 0, 2, 3, 5, 4];
@@ -14,6 +17,12 @@ const STRESS_EXCHANGED: [usize; 6] = [1, 0, 2, 3, 5, 4];
 /// Which of them are odd along x and along y, from pressure; shear turns the axis along which it acts.
 const STRESS_ODD: [[bool; 2]; 6] =
     [[false; 2], [false; 2], [false; 2], [true; 2], [true, false], [false, true]];
+
+/// Whether a kernel, `6 load + component`, is odd along x and along y.
+pub(super) fn stress_odd(kernel: usize) -> [bool; 2] {
+    let [x, y] = STRESS_ODD[kernel % 6];
+    [x != (kernel / 6 == 1), y != (kernel / 6 == 2)]
+}
 
 /// Stress coefficients of one depth on a grid; shear is left out where it is not wanted. `memory` is written over.
 pub(crate) fn stress_coefficients(
@@ -47,18 +56,45 @@ pub(crate) fn repeated_stress_coefficients(
     }
     let line = line_stress_coefficients(response, cells[0], spacing[0], with_shear);
     let uniform = |i: usize, kernel: usize| line.kernel(kernel / 6, kernel % 6)[[i, 0]];
-    let odd = |kernel: usize| {
-        let [x, y] = STRESS_ODD[kernel % 6];
-        [x != (kernel / 6 == 1), y != (kernel / 6 == 2)]
-    };
     let reach = with_images(cells);
     if with_shear {
         let tables = Tables::<StressFromAll, 3>::new(response, reach, spacing);
-        repeated(&tables, cells, uniform, odd, stress_from_all)
+        repeated(&tables, cells, uniform, stress_odd, stress_from_all)
     } else {
         let tables = Tables::<StressFromPressure, 1>::new(response, reach, spacing);
-        repeated(&tables, cells, uniform, odd, |[pressure]| [from_pressure(pressure)])
+        repeated(&tables, cells, uniform, stress_odd, |[pressure]| [from_pressure(pressure)])
     }
+}
+
+/// The same where the contact repeats along both axes, of so many cells in a period: of each kernel, `6 load + component`, the values over the offsets
+/// of one period. `uniform[load][component]` is what uniform tractions do.
+///
+/// The sum over all images along y, exact by itself, is summed over those along x behind a window, and its mean along x put right: what a row of
+/// cells without end along x does, a line contact that repeats along y.
+pub(super) fn stress_coefficients_in_period(
+    response: &impl WaveResponse,
+    (period, spacing): ([usize; 2], [f64; 2]),
+    uniform: &[[f64; 6]; 3],
+    with_shear: bool,
+) -> Vec<Array2<f64>> {
+    let [across, along] = period.map(window);
+    let rows = repeated_stress_coefficients(response, ([across.len(), period[1]], spacing), 1, with_shear);
+    let line = line_stress_coefficients(response, along.len(), spacing[1], with_shear)
+        .with_axes_exchanged(STRESS_EXCHANGED);
+    let of_kernel = |kernel: usize| {
+        let ([load, component], [odd_x, odd_y]) = ([kernel / 6, kernel % 6], stress_odd(kernel));
+        let mut without_end = vec![0.0; period[1]];
+        let single = line.kernel(load, component).iter().copied().collect::<Vec<_>>();
+        fold(&single, &along, odd_y, uniform[load][component], &mut without_end);
+        let mut values = Array2::zeros((period[1], period[0]));
+        for (j, mut row) in values.rows_mut().into_iter().enumerate() {
+            let single = rows.values.slice(s![.., kernel, j]).to_vec();
+            let row = row.as_slice_mut().unwrap_or_default(); // contiguous: made by `zeros`
+            fold(&single, &across, odd_x, without_end[j], row);
+        }
+        values.reversed_axes()
+    };
+    (0..rows.values.dim().1).into_par_iter().map(of_kernel).collect()
 }
 
 #[inline(always)]

@@ -22,6 +22,7 @@ pub(crate) mod line_depth;
 pub(crate) mod matrix;
 pub(crate) mod stack_layer;
 
+mod aliases;
 mod axis_waves;
 mod bessel;
 mod cell_integrals;

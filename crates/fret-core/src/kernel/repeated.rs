@@ -29,8 +29,8 @@ const FLAT: f64 = 0.5;
 /// `1/r` 2e-13 (measured, at a quarter of a period and farther).
 const FALL: f64 = 12.0;
 
-/// Weights of offsets along y on a grid with so many cells in a period: as many as count.
-fn window(period: usize) -> Vec<f64> {
+/// Weights of offsets along an axis on a grid with so many cells in a period: as many as count.
+pub(super) fn window(period: usize) -> Vec<f64> {
     let count = ((FLAT + FALL) * period as f64).ceil() as usize;
     let half = 0.5 * FALL * period as f64;
     let steepness = 0.5 * FALL * TAU;
@@ -85,7 +85,7 @@ pub(super) fn repeated<Q: Quartets<N>, const N: usize, const C: usize, const L: 
 }
 
 /// Sums a row over the images, and gives it the mean of a uniform traction; an odd one has none.
-fn fold(single: &[f64], weights: &[f64], is_odd: bool, uniform: f64, row: &mut [f64]) {
+pub(super) fn fold(single: &[f64], weights: &[f64], is_odd: bool, uniform: f64, row: &mut [f64]) {
     let period = row.len();
     let mut ahead = vec![0.0; period];
     for (single, weights) in single.chunks(period).zip(weights.chunks(period)) {

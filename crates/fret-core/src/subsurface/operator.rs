@@ -26,10 +26,11 @@ pub struct Tractions<'a> {
 
 /// Stress and displacement at one depth of one body, under the centres of the cells.
 ///
-/// In free space: kernels of the whole stack at that depth, tabulated in the distance and integrated over cells, as for the
-/// surface, or over the strips of a line contact (plane strain), or with all images where one axis is periodic; at depth 0 they give the stress in the surface itself. In periodic problems: the response at the grid's own
-/// wavenumbers. Exact for tractions that are uniform over each cell (free space), to rounding: about 1e-13 of the largest
-/// traction for contrasts up to 1e4.
+/// Kernels of the whole stack at that depth, tabulated in the distance and integrated over cells, as for the
+/// surface, or over the strips of a line contact (plane strain), or with all images where one axis is periodic or both are; at depth 0 they give
+/// the stress in the surface itself. Stresses are exact for tractions that are uniform over each cell, to rounding: about 1e-13 of the largest
+/// traction for contrasts up to 1e4; where both axes are periodic, to 1e-9 of the largest stress. Displacements of such problems are those of the grid's own waves, with
+/// which their contact is solved.
 ///
 /// It can be moved to another depth, and then works in the same memory.
 pub struct DepthOperator {
@@ -270,7 +271,7 @@ impl Scene {
     ) -> Result<[DepthProduct; 2], ConvolutionError> {
         let Self { shape, spacing, periodic, with_shear, .. } = *self;
         let coefficients = if periodic.is_both() {
-            stress_symbols(response, shape, spacing)
+            stress_symbols(response, shape, spacing, with_shear)
         } else if shape[1] == 1 {
             line_stress_coefficients(response, shape[0], spacing[0], with_shear)
         } else if let Some(axis) = periodic.one_axis() {

@@ -26,7 +26,8 @@ pub struct LoadedSurface {
 }
 
 /// Displacement `u_x, u_y, u_z` at all points under one surface [length], `z` into the body: of the tractions alone, without that of bulk
-/// and residual stress; in a periodic problem without the mean, which a half-space does not determine. `visit(point, field)`.
+/// and residual stress; in a periodic problem without the mean, which a half-space does not determine, and of the grid's own waves, with which
+/// the contact is solved. `visit(point, field)`.
 ///
 /// # Errors
 /// As [`survey`].
