@@ -101,7 +101,7 @@ impl<'a> Certifier<'a> {
             plan,
             influence: Influence::new(&case.bodies, &plan.grid, case.periodic, plan.datum),
             undeformed: case.profile.gap(&plan.grid),
-            past: Past::default(),
+            past: Past { repeats: case.periodic.axes(), ..Past::default() },
             whole: 2,
             before: Before {
                 slip: [zero(), zero()],
@@ -198,7 +198,12 @@ impl<'a> Certifier<'a> {
         past.is_cut = before.worn != fields.worn_depth;
         if past.is_cut {
             past.loads.push(load);
-            *past = Past { loads: std::mem::take(&mut past.loads), is_cut: true, ..Past::default() };
+            *past = Past {
+                repeats: past.repeats,
+                loads: std::mem::take(&mut past.loads),
+                is_cut: true,
+                ..Past::default()
+            };
         } else if pauses {
             past.gap[0] = Some(gap.clone());
         } else {

@@ -11,6 +11,8 @@ use super::measure::{dot, hypot};
 /// What went before an increment: fields of the last two states, where they are known.
 #[derive(Default)]
 pub(super) struct Past {
+    /// Along which axes the cells of one end are next to those of the other.
+    pub(super) repeats: [bool; 2],
     /// Loads of the last increments, the newest last.
     pub(super) loads: Vec<LoadStep>,
     /// Change of the displacement of the upper surface over the lower in the last increment, and in that before.
@@ -191,7 +193,7 @@ impl Past {
                 let now = distance(gap[at]);
                 let touch = f64::min(1.0, now / ((distance(gap_before[at]) - now) * by_edge));
                 let steps = touch * ratio;
-                let slid = self.edge_slip.get_or_init(|| edge_slip(gap, zone, drift));
+                let slid = self.edge_slip.get_or_init(|| edge_slip((gap, zone), drift, self.repeats));
                 let slid = [slid[0][at], slid[1][at]];
                 let lag = steps.powf(1.5) / ((1.0 + steps).powf(1.5) - steps.powf(1.5));
                 CellPath {
@@ -206,7 +208,11 @@ impl Past {
 
 /// The slip of cells in contact, carried outward: cell by cell, from the least gap on, an open cell takes the mean of the neighbours that are
 /// nearer to the contact, by how much nearer.
-fn edge_slip(gap: &Array2<f64>, zone: &Array2<Zone>, drift: &[Array2<f64>; 2]) -> [Array2<f64>; 2] {
+fn edge_slip(
+    (gap, zone): (&Array2<f64>, &Array2<Zone>),
+    drift: &[Array2<f64>; 2],
+    repeats: [bool; 2],
+) -> [Array2<f64>; 2] {
     let height = |at: [usize; 2]| match zone[at] {
         Zone::Open => gap[at].max(0.0).powf(2.0 / 3.0),
         _ => 0.0,
@@ -226,6 +232,10 @@ fn edge_slip(gap: &Array2<f64>, zone: &Array2<Zone>, drift: &[Array2<f64>; 2]) -
         for (axis, step) in [(0, 1), (0, usize::MAX), (1, 1), (1, usize::MAX)] {
             let mut next = at;
             next[axis] = at[axis].wrapping_add(step);
+            let cells = gap.shape()[axis];
+            if repeats[axis] && next[axis] >= cells {
+                next[axis] = if step == 1 { 0 } else { cells - 1 };
+            }
             if gap.get(next).is_some() && height(next) < height(at) {
                 let weight = height(at) - height(next);
                 total += weight;
