@@ -52,7 +52,10 @@ FILES = [
     ),
     ("run.json", "the run: program, version, plan, totals, status, warnings, origin"),
     ("error_bars.json", "with `--estimate-error`: value and bar of each quantity at the end of each stage"),
-    ("states/", "what a run that starts from a state needs besides the kept fields"),
+    (
+        "states/",
+        "what a run that starts from a state needs besides the kept fields; `memory`: what the second order remembers at the end of the run",
+    ),
     ("checkpoint", "of an unfinished run: what `--resume` needs"),
     ("report.html", "written by `fret report`"),
     (

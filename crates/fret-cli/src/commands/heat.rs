@@ -55,12 +55,17 @@ pub fn heat(arguments: &HeatArguments) -> Result<Answer, Failure> {
 /// Why there is nothing to tell: no temperature is asked for, and no resistance is one of both bodies.
 fn without_answer(folder: &Path, run: &Results) -> Failure {
     let conduction = &run.case().conduction;
-    let one_conducts = [&conduction.thermal, &conduction.electrical].iter().all(|pair| both(pair).is_none());
-    let (why, help) = if one_conducts {
+    let no_pair = [&conduction.thermal, &conduction.electrical].iter().all(|pair| both(pair).is_none());
+    let (why, help) = if no_pair && !run.case().periodic.is_none() {
         (
-            "one body alone conducts, so the contact has no resistance, and without a frequency there is no temperature",
-            "[thermal] frequency = ... for the temperature of that body; thermal_conductivity or electrical_resistivity in all layers of the \
-             other one for the resistance; give them with --case FILE",
+            "heat and current are conducted by one body at the most, so the contact has no resistance",
+            "thermal_conductivity, or electrical_resistivity, in all layers of both bodies; give them with --case FILE",
+        )
+    } else if no_pair {
+        (
+            "heat and current are conducted by one body at the most, so the contact has no resistance, and without a frequency there is no temperature",
+            "[thermal] frequency = ..., with pressure, shear and slip kept of every increment, for the temperature; thermal_conductivity, or \
+             electrical_resistivity, in all layers of both bodies for the resistance; give them with --case FILE",
         )
     } else {
         (

@@ -151,6 +151,21 @@ fn a_load_that_goes_on_goes_on_from_the_end_of_a_finished_run() {
     assert!((energy(&anew) / energy(&whole) - 1.0).abs() > 1e-4);
 }
 
+/// Where friction changes no increment goes on, in one run or in two.
+#[test]
+fn under_other_friction_nothing_is_remembered() {
+    let bench = Bench::new("from-other-friction");
+    let press = "[[load]]\nnormal_force = 1.0\nincrements = 3\n[[load]]\ntangential_force = [0.14, 0.0]\nincrements = 5\n";
+    let on = "[[load]]\ntangential_force = [0.145, 0.0]\nincrements = 3\n";
+    let other = HEAD.replace("coefficient = 0.2", "coefficient = 0.15");
+    let changed = on.replace("increments = 3\n", "increments = 3\nfriction = { coefficient = 0.15 }\n");
+    solved(&bench, &format!("{HEAD}{press}{changed}"), &["whole"]);
+    solved(&bench, &format!("{HEAD}{press}"), &["part"]);
+    solved(&bench, &format!("{other}{on}"), &["--from", "part", "on"]);
+    let [whole, on] = ["whole", "on"].map(|folder| bench.text(&format!("{folder}/history.csv")));
+    assert_goes_on(&whole, &on);
+}
+
 /// The fields that are asked for do not hold the slip: only the ends of stages do, in a file of their own.
 #[test]
 fn the_end_of_a_stage_can_be_started_from_whatever_fields_are_kept() {

@@ -106,7 +106,7 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
     real("shift_y", "rigid tangential displacement of the upper body along y", LENGTH, |step| step.shift[1]),
     real(
         "twist_moment",
-        "moment about z on the lower body, about the middle of the grid, or of an upper body that moves over it",
+        "moment about z on the lower body, about the middle of the grid; of a contact that rolls, or an upper body that moves, about its own",
         WORK,
         |step| step.twist_moment,
     ),

@@ -162,7 +162,20 @@ pub(crate) fn way_of_solving(plan: &Value) -> String {
         ["coupling", "along", "symmetry", "single_precision", "leave_out"].map(|name| &plan[name]);
     // what the response and the laws of pressure have besides
     let gives = [&case["hardness"], &case["wear"]["debris"]["stiffness"]];
-    json!([shortcuts, case["tolerance"], case["scheme"], case["integration"], gives]).to_string()
+    // where friction changes no increment goes on
+    let of_stages: Vec<&Value> =
+        case["stages"].as_array().into_iter().flatten().map(|stage| &stage["friction"]).collect();
+    let of_stages: Vec<&Value> = of_stages.into_iter().filter(|friction| !friction.is_null()).collect();
+    json!([
+        shortcuts,
+        case["tolerance"],
+        case["scheme"],
+        case["integration"],
+        gives,
+        case["friction"],
+        of_stages
+    ])
+    .to_string()
 }
 
 fn differences(key: &str, case: &Value, state: &Value, found: &mut Vec<Difference>) {

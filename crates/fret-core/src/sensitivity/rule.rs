@@ -141,8 +141,7 @@ impl Rule {
             rule.go_on(pace, [before, former], (contact, zones));
         }
         if let (Some(ratio), true) = (pace.edge, before.went_on()) {
-            let ends = scene.plan.case.periodic.axes().map(|repeats| Ends::of(false, repeats));
-            rule.enter((pace.loads, ratio), [before, former], (contact, ends));
+            rule.enter((pace.loads, ratio), [before, former], (contact, scene.ends()));
         }
         rule
     }

@@ -15,7 +15,7 @@ use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceResponse};
 use crate::model::{ContactState, Rig, SurfaceGrid};
 use crate::plan::{Coupling, Plan};
 use crate::run::PairCompliance;
-use crate::solver::Region;
+use crate::solver::{Ends, Region};
 use fret_fft::{ConvolutionError, good_length};
 
 /// Cells beyond all contacts of the history: to these the edge may come, and they see those beside them.
@@ -130,6 +130,13 @@ impl<'a> Scene<'a> {
     /// Place of a cell of the region along x and y over the length.
     pub fn place(&self, cell: usize) -> [f64; 2] {
         self.places.each_ref().map(|places| places[cell])
+    }
+
+    /// What lies beyond the first and the last cells of the region. One that is a part of the grid ends where nothing touches.
+    pub fn ends(&self) -> [Ends; 2] {
+        let (mirrored, repeats) = (self.plan.symmetry.axes(), self.plan.case.periodic.axes());
+        let is_all = |axis: usize| self.region.shape[axis] == self.grid.cells()[axis];
+        [0, 1].map(|axis| Ends::of(mirrored[axis], repeats[axis] && is_all(axis)))
     }
 
     /// For each degree of freedom the factor of the sum of tractions that goes with its motion in the force of the whole contact: forces normal and along
