@@ -272,7 +272,7 @@ fn bars_hold_from_six_cells_in_the_radius_on_and_are_refused_below() {
     println!("largest error over bar of 46 radii from 6.1 to 18 cells: {worst:.2?}");
 }
 
-/// Contacts with corners, under a Berkovich pyramid: against the same program's area on 256 cells a side, which 512 cells change by 0.5 %.
+/// Contacts with corners, under a Berkovich pyramid: against the same program's area on 256 x 256 cells, which 512 x 512 change by 0.5 %.
 #[test]
 fn areas_under_pyramids_lie_within_their_bars() {
     for cells in [48, 52, 56, 60, 64] {

@@ -90,7 +90,8 @@ impl Origin {
                         damaged(format!("{shown}: {name} of increment {increment} is missing"))
                     })
                 })?;
-                let memory = memory_below(results, increment).map_err(damaged)?;
+                let stage = run.table.at("stage", increment) as usize;
+                let memory = memory_below(results, increment).map_err(damaged)?.map(|memory| (memory, stage));
                 Start::new(plan, solved, memory).ok_or_else(|| {
                     damaged(format!("{shown}: the state of increment {increment} is damaged"))
                 })?

@@ -151,14 +151,14 @@ fn a_load_that_goes_on_goes_on_from_the_end_of_a_finished_run() {
     assert!((energy(&anew) / energy(&whole) - 1.0).abs() > 1e-4);
 }
 
-/// Where friction changes no increment goes on, in one run or in two: the first one there begins anew.
+/// Where friction changes no increment goes on, in one run or in two; the second one does from the first.
 #[test]
 fn under_other_friction_nothing_is_remembered() {
     let bench = Bench::new("from-other-friction");
     let press = "[[load]]\nnormal_force = 1.0\nincrements = 3\n[[load]]\ntangential_force = [0.14, 0.0]\nincrements = 5\n";
-    let on = "[[load]]\ntangential_force = [0.145, 0.0]\nincrements = 1\n";
+    let on = "[[load]]\ntangential_force = [0.145, 0.0]\nincrements = 3\n";
     let other = HEAD.replace("coefficient = 0.2", "coefficient = 0.15");
-    let changed = on.replace("increments = 1\n", "increments = 1\nfriction = 0.15\n");
+    let changed = on.replace("increments = 3\n", "increments = 3\nfriction = 0.15\n");
     solved(&bench, &format!("{HEAD}{press}{changed}"), &["whole"]);
     solved(&bench, &format!("{HEAD}{press}"), &["part"]);
     solved(&bench, &format!("{other}{on}"), &["--from", "part", "on"]);

@@ -23,7 +23,8 @@ pub struct Start {
     setting: String,
     /// The state.
     pub solved: SolvedState,
-    /// What the solver remembered, and of which way of solving: one that goes on in the same way has the bits it would have had.
+    /// What the solver remembered, and as JSON of which way of solving and under which friction: one that goes on in the same way has the bits it
+    /// would have had.
     memory: Option<(SolverMemory, String)>,
     #[serde(skip)]
     digest: OnceLock<String>,
@@ -31,15 +32,19 @@ pub struct Start {
 
 impl Start {
     /// A state solved by a plan, which is given as JSON; `None` where that is no plan, or the state none of its grid.
-    pub fn new(plan: &Value, solved: SolvedState, memory: Option<SolverMemory>) -> Option<Self> {
-        let memory = memory.map(|memory| (memory, way_of_solving(plan)));
+    /// With what the solver remembered, and in which stage.
+    pub fn new(plan: &Value, solved: SolvedState, memory: Option<(SolverMemory, usize)>) -> Option<Self> {
+        let memory = memory.map(|(memory, stage)| {
+            (memory, json!([way_of_solving(plan), friction_in(plan, stage)]).to_string())
+        });
         Self { setting: setting(plan).to_string(), solved, memory, digest: OnceLock::new() }.sound()
     }
 
     /// The state of a history at the end of an increment; `None` where what is kept of it is not enough.
     pub fn of(history: &History, increment: usize) -> Option<Self> {
         let kept = history.fields_of(increment);
-        let memory = kept.and_then(|kept| kept.memory.as_deref().cloned());
+        let stage = history.steps.iter().find(|step| step.increment == increment).map(|step| step.stage);
+        let memory = kept.and_then(|kept| kept.memory.as_deref().cloned()).zip(stage);
         let solved = if history.steps.last()?.increment == increment {
             history.end.clone().completed(|name| history.state.field(name).cloned().ok_or(()))
         } else {
@@ -118,9 +123,12 @@ impl Start {
         found
     }
 
-    /// What the solver remembered, for a plan, given as JSON, that solves in the same way.
-    pub(crate) fn memory_for(&self, plan: &Value) -> Option<&SolverMemory> {
-        self.memory.as_ref().filter(|(_, way)| *way == way_of_solving(plan)).map(|(memory, _)| memory)
+    /// What the solver remembered, for a plan, given as JSON, that solves in the same way. Under another friction no increment goes on.
+    pub(crate) fn memory_for(&self, plan: &Value) -> Option<SolverMemory> {
+        let (memory, of) = self.memory.as_ref()?;
+        let (way, friction): (String, Value) = serde_json::from_str(of).ok()?;
+        let memory = (way == way_of_solving(plan)).then(|| memory.clone())?;
+        Some(if friction == *friction_in(plan, 0) { memory } else { memory.without_increments_before() })
     }
 }
 
@@ -162,20 +170,15 @@ pub(crate) fn way_of_solving(plan: &Value) -> String {
         ["coupling", "along", "symmetry", "single_precision", "leave_out"].map(|name| &plan[name]);
     // what the response and the laws of pressure have besides
     let gives = [&case["hardness"], &case["wear"]["debris"]["stiffness"]];
-    // where friction changes no increment goes on
-    let of_stages: Vec<&Value> =
-        case["stages"].as_array().into_iter().flatten().map(|stage| &stage["friction"]).collect();
-    let of_stages: Vec<&Value> = of_stages.into_iter().filter(|friction| !friction.is_null()).collect();
-    json!([
-        shortcuts,
-        case["tolerance"],
-        case["scheme"],
-        case["integration"],
-        gives,
-        case["friction"],
-        of_stages
-    ])
-    .to_string()
+    json!([shortcuts, case["tolerance"], case["scheme"], case["integration"], gives]).to_string()
+}
+
+/// The friction law in a stage of a plan, given as JSON.
+fn friction_in(plan: &Value, stage: usize) -> &Value {
+    let case = &plan["case"];
+    let stages = case["stages"].as_array().map(Vec::as_slice).unwrap_or_default();
+    let mut latest_first = stages.iter().take(stage + 1).rev().map(|stage| &stage["friction"]);
+    latest_first.find(|friction| !friction.is_null()).unwrap_or(&case["friction"])
 }
 
 fn differences(key: &str, case: &Value, state: &Value, found: &mut Vec<Difference>) {

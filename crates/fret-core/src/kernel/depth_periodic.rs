@@ -1,5 +1,5 @@
-//! Stress and displacement at depth in scenes that repeat, by their waves: stresses of tractions that are uniform over each cell, displacements of
-//! the grid's own waves.
+//! Stress and displacement at depth in periodic problems, in the frequency domain: stresses of tractions that are uniform over each cell,
+//! displacements of the wavenumbers of the grid alone.
 
 use std::f64::consts::{PI, TAU};
 
@@ -22,8 +22,8 @@ const DEEP: f64 = 12.0;
 ///
 /// A uniform pressure compresses without lateral strain (the period is held): `sigma_xx = sigma_yy = -nu/(1 - nu) p`.
 ///
-/// Error about 1e-13 of the traction; of a film 1e4 times as stiff as what it lies on up to 2e-10 of its stress. Cost: one response per wave; above [`DEEP`] that of the coefficients of 160 thousand cells in free
-/// space, too.
+/// Error about 1e-13 of the traction; of a film 1e4 times as stiff as what it lies on up to 2e-10 of its stress. Cost: one response per wave;
+/// above [`DEEP`] that of the coefficients of 160 thousand cells in free space, too.
 ///
 /// [`PeriodicSymbols`]: super::PeriodicSymbols
 pub(crate) fn stress_symbols(

@@ -171,8 +171,7 @@ impl Checkpoint {
             }
         };
         let memory = start.map(|start| {
-            let known = start.memory_for(&plan.to_json()).cloned();
-            known.unwrap_or_else(|| SolverMemory::starting_at(loads))
+            start.memory_for(&plan.to_json()).unwrap_or_else(|| SolverMemory::starting_at(loads))
         });
         let place = Place {
             solved: 0,
@@ -258,7 +257,10 @@ impl Checkpoint {
         let underway = checkpoint.underway();
         let state = checkpoint.state.clone();
         let solved = symmetry.whole_solved(solved_state(&checkpoint.place, state, underway));
-        let memory = underway.leaves_the_gap().then(|| checkpoint.memory.clone());
+        // At the end of a stage the place is the begin of the next.
+        let Place { stage, solved_of_stage, .. } = checkpoint.place;
+        let stage = if solved_of_stage == 0 { stage.saturating_sub(1) } else { stage };
+        let memory = underway.leaves_the_gap().then(|| (checkpoint.memory.clone(), stage));
         Start::new(plan, solved, memory).ok_or(CheckpointError::Foreign)
     }
 

@@ -33,6 +33,11 @@ impl SolverMemory {
     pub fn knows_slip(&self) -> bool {
         self.last.as_ref().is_some_and(|last| last.drift.region.is_some())
     }
+
+    /// The same where the next increment does not go on from those before the last one.
+    pub fn without_increments_before(self) -> Self {
+        Self { before: None, ..self }
+    }
 }
 
 /// The state before the last one.
