@@ -35,6 +35,7 @@ impl SolverMemory {
     }
 
     /// The same where the next increment does not go on from those before the last one.
+    #[must_use]
     pub fn without_increments_before(self) -> Self {
         Self { before: None, ..self }
     }
