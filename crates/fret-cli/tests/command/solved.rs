@@ -189,18 +189,25 @@ fn every_example_of_a_loading_runs() {
     }
 }
 
-/// What is put in in each increment is stored, dissipated, gone with wear or told as unresolved. What is stored is rounded to some 1e-14.
+/// What is put in in each increment is stored, dissipated, gone with wear or yielding, or told as unresolved. What is stored is rounded to some 1e-14.
 fn keeps_the_first_law(name: &str, table: &str) {
     let mut lines = table.lines();
     let head: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let columns = ["external_work", "elastic_energy", "dissipated_energy", "wear_work", "unresolved_energy"];
+    let columns = [
+        "external_work",
+        "elastic_energy",
+        "dissipated_energy",
+        "wear_work",
+        "plastic_work",
+        "unresolved_energy",
+    ];
     // A head may have a unit behind its name.
     let is_named = |head: &str, name: &str| head.split(' ').next() == Some(name);
     let places = columns.map(|column| head.iter().position(|head| is_named(head, column)).unwrap());
-    let mut before = [0.0; 5];
+    let mut before = [0.0; 6];
     for line in lines {
         let words: Vec<&str> = line.split(',').collect();
-        let now: [f64; 5] = places.map(|place| words[place].parse().unwrap());
+        let now: [f64; 6] = places.map(|place| words[place].parse().unwrap());
         let changes: Vec<f64> = now.iter().zip(&before).map(|(now, before)| now - before).collect();
         let unit = changes.iter().fold(1e-5 * now[1], |most, change| most.max(change.abs()));
         let off = changes[0] - changes[1..].iter().sum::<f64>();
