@@ -62,6 +62,31 @@ fn moved_by_whole_cells_it_is_the_shifted_problem_to_the_bit() {
     }
 }
 
+/// Neither axis comes first: across by parts of cells, and turned besides, the scene with x and y exchanged has the exchanged answer, to the tolerance
+/// of the solution.
+#[test]
+fn a_rough_body_moves_across_as_it_does_with_axes_exchanged() {
+    const CELLS: usize = 40;
+    let heights = rippled_ball(CELLS);
+    let exchanged = heights.t().as_standard_layout().to_owned();
+    for twist in [0.0, 0.04] {
+        let loads = |[x, y]: [f64; 2], twist: f64| {
+            format!(
+                "[[load]]\nnormal_force = 3e-3\nincrements = 3\n[[load]]\nshift = [{x}, {y}]\ntwist = {twist}\nincrements = 3\n"
+            )
+        };
+        let one =
+            solved_with(&rough(CELLS, FINITE, &loads([0.13, 0.21], twist)), std::slice::from_ref(&heights));
+        let other = solved_with(
+            &rough(CELLS, FINITE, &loads([0.21, 0.13], -twist)),
+            std::slice::from_ref(&exchanged),
+        );
+        let [one, other] = [&one, &other].map(|history| &history.state.pressure);
+        let largest = one.iter().copied().fold(0.0, f64::max);
+        assert!((one - &other.t()).iter().all(|off| off.abs() < 1e-6 * largest));
+    }
+}
+
 /// A rough body slides without friction by parts of cells: at each place the pressure is that of the body pressed there for the first time; at
 /// whole cells to the tolerance, between them as near as heights between cells are known.
 #[test]

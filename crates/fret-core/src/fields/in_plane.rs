@@ -1,11 +1,12 @@
 //! Fields that move in their plane with a body: turned about a pole, and carried.
 //!
-//! A turn is three shears (Paeth 1986, Graphics Interface '86, 77), each of which carries whole lanes: what [`carried`] keeps, it keeps. Quarter turns
-//! of a square grid and half turns of any only put values elsewhere, to the bit.
+//! A turn is three shears (Paeth 1986, Graphics Interface '86, 77), each of which carries whole lanes: what [`carried`] keeps, it keeps. Neither axis
+//! comes first: half of it is made by shears along x, y and x, half along y, x and y. Quarter turns of a square grid and half turns of any only put
+//! values elsewhere, to the bit.
 
 use std::f64::consts::FRAC_PI_2;
 
-use ndarray::{Array2, Axis, s};
+use ndarray::{Array2, ArrayView2, Axis, s};
 
 use super::moved::{Outside, carried, carry, leaves};
 
@@ -59,7 +60,8 @@ impl InPlane {
         // From where the pole has come to in the quarter turns.
         let way = [0, 1].map(|axis| self.pole[axis] - pole[axis] + self.by[axis]);
         if rest.abs() > NONE {
-            self.sheared(&field, rest, (pole, way), outside)
+            let turn = Turn { turned: rest, pole, way, aspect: self.aspect };
+            0.5 * (turn.sheared(field.view(), outside) + turn.exchanged().sheared(field.t(), outside).t())
         } else {
             carried(&field, way, outside)
         }
@@ -73,34 +75,6 @@ impl InPlane {
         }
         let (sine, cosine) = self.turned.sin_cos();
         [&x * cosine - &y * sine, &x * sine + &y * cosine]
-    }
-
-    /// Turned about a pole by at most a right angle, and carried by a way: by shears along x, y and x.
-    fn sheared(
-        &self,
-        field: &Array2<f64>,
-        turned: f64,
-        (pole, way): ([f64; 2], [f64; 2]),
-        outside: Outside,
-    ) -> Array2<f64> {
-        let (nx, ny) = field.dim();
-        let middle = [nx, ny].map(|count| (count as f64 - 1.0) / 2.0);
-        let along_x = -(0.5 * turned).tan() * self.aspect;
-        let along_y = turned.sin() / self.aspect;
-        // Along x the first shear may carry beyond the grid what comes back with the last one.
-        let beyond = (along_x.abs() * (middle[1] + pole[1].abs() + 1.0)).ceil() as usize + 1;
-        let mut wide = widened(field, beyond, outside);
-        for (j, mut lane) in wide.lanes_mut(Axis(0)).into_iter().enumerate() {
-            carry(&mut lane, along_x * (j as f64 - middle[1] - pole[1]), outside);
-        }
-        for (i, mut lane) in wide.lanes_mut(Axis(1)).into_iter().enumerate() {
-            let x = i as f64 - beyond as f64 - middle[0];
-            carry(&mut lane, along_y * (x - pole[0]) + way[1], outside);
-        }
-        for (j, mut lane) in wide.lanes_mut(Axis(0)).into_iter().enumerate() {
-            carry(&mut lane, along_x * (j as f64 - middle[1] - way[1] - pole[1]) + way[0], outside);
-        }
-        wide.slice(s![beyond..beyond + nx, ..]).to_owned()
     }
 
     /// How far what is not zero in a field goes at the most, in cells along an axis.
@@ -130,6 +104,47 @@ impl InPlane {
     }
 }
 
+/// A turn by at most a right angle about a pole, and a way along each axis, in cells.
+#[derive(Clone, Copy)]
+struct Turn {
+    turned: f64,
+    pole: [f64; 2],
+    way: [f64; 2],
+    aspect: f64,
+}
+
+impl Turn {
+    /// The same with x and y exchanged.
+    fn exchanged(&self) -> Self {
+        let swapped = |[x, y]: [f64; 2]| [y, x];
+        let (pole, way) = (swapped(self.pole), swapped(self.way));
+        Self { turned: -self.turned, pole, way, aspect: 1.0 / self.aspect }
+    }
+
+    /// A field so moved, by shears along x, y and x.
+    fn sheared(&self, field: ArrayView2<'_, f64>, outside: Outside) -> Array2<f64> {
+        let Self { turned, pole, way, aspect } = *self;
+        let (nx, ny) = field.dim();
+        let middle = [nx, ny].map(|count| (count as f64 - 1.0) / 2.0);
+        let along_x = -(0.5 * turned).tan() * aspect;
+        let along_y = turned.sin() / aspect;
+        // Along x the first shear may carry beyond the grid what comes back with the last one.
+        let beyond = (along_x.abs() * (middle[1] + pole[1].abs() + 1.0)).ceil() as usize + 1;
+        let mut wide = widened(field, beyond, outside);
+        for (j, mut lane) in wide.lanes_mut(Axis(0)).into_iter().enumerate() {
+            carry(&mut lane, along_x * (j as f64 - middle[1] - pole[1]), outside);
+        }
+        for (i, mut lane) in wide.lanes_mut(Axis(1)).into_iter().enumerate() {
+            let x = i as f64 - beyond as f64 - middle[0];
+            carry(&mut lane, along_y * (x - pole[0]) + way[1], outside);
+        }
+        for (j, mut lane) in wide.lanes_mut(Axis(0)).into_iter().enumerate() {
+            carry(&mut lane, along_x * (j as f64 - middle[1] - way[1] - pole[1]) + way[0], outside);
+        }
+        wide.slice(s![beyond..beyond + nx, ..]).to_owned()
+    }
+}
+
 /// A field turned by quarters about the middle of its grid, and a pole that goes along.
 fn quarter_turned(field: &Array2<f64>, pole: [f64; 2], quarters: usize) -> (Array2<f64>, [f64; 2]) {
     let mut turned = field.view();
@@ -144,7 +159,7 @@ fn quarter_turned(field: &Array2<f64>, pole: [f64; 2], quarters: usize) -> (Arra
 }
 
 /// A field with so many cells more on either side along x.
-fn widened(field: &Array2<f64>, by: usize, outside: Outside) -> Array2<f64> {
+fn widened(field: ArrayView2<'_, f64>, by: usize, outside: Outside) -> Array2<f64> {
     let (nx, ny) = field.dim();
     Array2::from_shape_fn((nx + 2 * by, ny), |(i, j)| {
         let inside = (by..by + nx).contains(&i);
@@ -217,6 +232,12 @@ mod tests {
                 // what of the hill lies beyond the edges
                 assert!((found.sum() / field.sum() - 1.0).abs() < 1e-6, "{}", found.sum() / field.sum());
                 assert!(found.iter().all(|value| *value >= -1e-12));
+                // Neither axis comes first.
+                let swapped = |[x, y]: [f64; 2]| [y, x];
+                let other =
+                    InPlane { turned: -turned, pole: swapped(pole), by: swapped(by), aspect: 1.0 / aspect };
+                let exchanged = other.of(&field.t().as_standard_layout().to_owned(), Outside::Zero);
+                assert!((found - exchanged.t()).iter().all(|off| off.abs() < 1e-13));
             }
         }
     }

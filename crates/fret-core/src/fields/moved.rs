@@ -29,20 +29,26 @@ impl Outside {
 ///
 /// Values are means over cells. Carried by a part of a cell, the content of each cell is a straight line whose slope is limited so that
 /// nothing new rises or sinks (van Leer 1977, J. Comput. Phys. 23, 276): exact for a straight line, of second order for a smooth field, and
-/// what one cell gives the next one takes, so that the sum stays to rounding where nothing passes the edge. Carried by whole cells, to the bit.
+/// what one cell gives the next one takes, so that the sum stays to rounding where nothing passes the edge. Across, along one axis after the other,
+/// in both orders by half, so that neither axis comes first. Carried by whole cells, to the bit.
 pub fn carried(field: &Array2<f64>, cells: [f64; 2], outside: Outside) -> Array2<f64> {
     if cells.iter().all(|by| by.fract() == 0.0) {
         return carried_by_whole_cells(field, cells.map(|by| by as isize), (outside, 0.0));
     }
-    let mut moved = field.clone();
-    for (axis, by) in cells.into_iter().enumerate() {
-        if by != 0.0 {
-            for mut lane in moved.lanes_mut(Axis(axis)) {
-                carry(&mut lane, by, outside);
+    let along = |axes: &[usize]| {
+        let mut moved = field.clone();
+        for axis in axes {
+            for mut lane in moved.lanes_mut(Axis(*axis)) {
+                carry(&mut lane, cells[*axis], outside);
             }
         }
+        moved
+    };
+    match cells.map(|by| by != 0.0) {
+        [true, true] => 0.5 * (along(&[0, 1]) + along(&[1, 0])),
+        [true, false] => along(&[0]),
+        _ => along(&[1]),
     }
-    moved
 }
 
 /// A field of anything carried along by whole `cells`; `nothing` is what lies outside where that is nothing.
@@ -185,6 +191,9 @@ mod tests {
             assert!(moved.iter().all(|value| *value >= -1e-12));
             assert!(!leaves(&field, cells));
         }
+        // Neither axis comes first: exchanged, to the bit.
+        let exchanged = carried(&field.t().to_owned(), [0.37, -1.6], Outside::Zero);
+        assert_eq!(carried(&field, [-1.6, 0.37], Outside::Zero), exchanged.t());
         assert!(leaves(&field, [-5.0, 0.0]) && leaves(&field, [11.5, 0.0]) && !leaves(&field, [11.0, 0.0]));
     }
 

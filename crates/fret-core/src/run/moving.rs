@@ -26,6 +26,10 @@ const TAKING_TURNS: usize = 4;
 const STEEPEST: f64 = 0.9;
 /// Two places are one where nothing on the grid lies in them farther apart than this, in cells.
 const SAME_PLACE: f64 = 1e-4;
+/// Two places are beside each other where they lie no farther apart than this along the axes, in cells: positions are rounded to a hundredth.
+const ONE_ROUNDING: f64 = 0.015;
+/// And by a turn: less than half a hundredth of a cell is rounded to a right angle.
+const ROUNDED_TURN: f64 = 0.006;
 
 /// A solver, with what moves the surfaces from one increment to the next, where they move.
 pub struct Stepper<'a> {
@@ -207,7 +211,8 @@ impl Moving {
         let of_turn = 0.5 * (found - twist).abs() * way[0].hypot(way[1]);
         let off_by_turn = turned_off.max(of_turn);
         let over_a_right_angle = (place.turned == twist) != (reached.turned == found);
-        let beside = off < 0.015 && (off_by_turn < SAME_PLACE || over_a_right_angle && off_by_turn < 0.006);
+        let beside = off < ONE_ROUNDING
+            && (off_by_turn < SAME_PLACE || over_a_right_angle && off_by_turn < ROUNDED_TURN);
         (off.max(off_by_turn), beside)
     }
 
@@ -311,7 +316,7 @@ impl<'a> Stepper<'a> {
     /// the place is that of the shift and the twist found.
     ///
     /// # Errors
-    /// As [`ContactSolver::step`]; that it does not converge, when the rounds do not.
+    /// As [`ContactSolver::step`]; that the place wanders, when the rounds do not end.
     pub fn step(
         &mut self,
         state: &ContactState,
@@ -379,7 +384,7 @@ impl<'a> Stepper<'a> {
                 solver.restore_memory(memory.clone());
             }
             if round == MOST_ROUNDS {
-                return Err(SolveError::NotConverged { reached: off, iterations: round });
+                return Err(SolveError::Wanders { apart: off, rounds: round });
             }
             round += 1;
             let by_moment = load.twist.force().is_some();

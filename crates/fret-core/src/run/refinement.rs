@@ -60,7 +60,7 @@ fn halved(
             surfaces.add(span.state, &end.state)?;
             Ok((end, 1))
         }
-        Err(error @ SolveError::NotConverged { .. }) if halvings > 0 && span.from != span.to => {
+        Err(error) if error.is_of_long_increments() && halvings > 0 && span.from != span.to => {
             let middle = &LoadStep::between(span.from, span.to, 0.5);
             if !solver.may_stop_at(span.state, middle) {
                 return Err(error);

@@ -27,6 +27,34 @@ pub enum RunError {
         /// What to try.
         advice: String,
     },
+    /// The place of surfaces that move is not found.
+    #[error(
+        "increment {increment} ({stage}) not solved: after {rounds} rounds the upper surface still lies {apart:.1e} cells from where its shift and twist bring it; try more increments in this stage, or prescribe the motion in place of the force"
+    )]
+    PlaceNotFound {
+        /// Number of the increment, from 0.
+        increment: usize,
+        /// Name of its stage.
+        stage: String,
+        /// How far it lies from there [cells].
+        apart: f64,
+        /// Rounds made.
+        rounds: usize,
+    },
+    /// A contact that rolls comes to no steady state.
+    #[error(
+        "increment {increment} ({stage}): not steady after {increments} increments: over a length of the contact the tractions still change by {change:.1e} of their size; try a larger solver.tolerance, or a roll of some lengths of the contact in place of \"steady\""
+    )]
+    NotSteady {
+        /// Number of the increment, from 0.
+        increment: usize,
+        /// Name of its stage.
+        stage: String,
+        /// By how much the tractions still change, of their size.
+        change: f64,
+        /// Increments made.
+        increments: usize,
+    },
     /// The contact reaches the edge of the grid.
     #[error("increment {increment} ({stage}): the contact reaches the edge of the grid; {advice}")]
     ContactAtEdge {
@@ -181,6 +209,8 @@ impl RunError {
     pub fn increment(&self) -> usize {
         match self {
             Self::NotConverged { increment, .. }
+            | Self::PlaceNotFound { increment, .. }
+            | Self::NotSteady { increment, .. }
             | Self::ContactAtEdge { increment, .. }
             | Self::AboveSliding { increment, .. }
             | Self::AboveFullSlip { increment, .. }
@@ -260,6 +290,10 @@ pub fn run_error(error: &SolveError, increment: usize, case: &Case, stage: usize
             iterations,
             advice: way_to_solve(case, number),
         },
+        SolveError::Wanders { apart, rounds } => RunError::PlaceNotFound { increment, stage, apart, rounds },
+        SolveError::NotSteady { change, increments } => {
+            RunError::NotSteady { increment, stage, change, increments }
+        }
         SolveError::AboveSliding { asked, bound, by } => {
             let (unit, advice) = (unit("force"), WAY_TO_SLIDE);
             RunError::AboveSliding { increment, stage, asked, bound, by, unit, advice }

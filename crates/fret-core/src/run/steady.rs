@@ -157,7 +157,7 @@ impl Rolling {
                 }
             }
             if is_last {
-                return Err(SolveError::NotConverged { reached: off, iterations: made.get() });
+                return Err(SolveError::NotSteady { change: off, increments: made.get() });
             }
             stride /= 2;
         }

@@ -80,6 +80,20 @@ pub enum SolveError {
         /// Iterations made.
         iterations: usize,
     },
+    /// The place of surfaces that move, and the shift or the twist that follow in it, do not come together.
+    Wanders {
+        /// How far they are apart on the grid [cells].
+        apart: f64,
+        /// Rounds made.
+        rounds: usize,
+    },
+    /// A contact that rolls comes to no steady state.
+    NotSteady {
+        /// By how much the tractions still change over a length of the contact, of their size.
+        change: f64,
+        /// Increments made.
+        increments: usize,
+    },
     /// More tangential force than friction carries, or as much: the contact slides, and no force tells how far.
     AboveSliding {
         /// Force asked for [force].
@@ -123,6 +137,11 @@ impl From<ConvolutionError> for SolveError {
 }
 
 impl SolveError {
+    /// Whether a shorter increment may have a solution that was found.
+    pub fn is_of_long_increments(&self) -> bool {
+        matches!(self, Self::NotConverged { .. } | Self::Wanders { .. })
+    }
+
     /// The error of a grid of whose cells one in `copies` was solved.
     pub(super) fn of_whole(self, copies: usize) -> Self {
         match self {
