@@ -1,7 +1,7 @@
 """Constants of a model from measured fretting loops."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from os import PathLike
 from typing import TYPE_CHECKING, Any
@@ -35,6 +35,10 @@ class Constant:
     told: bool
 
 
+def _constants(entries: Iterable[Mapping[str, Any]]) -> dict[str, Constant]:
+    return {entry["name"]: Constant(entry["value"], (entry["low"], entry["high"]), entry["told"]) for entry in entries}
+
+
 class Identification(Fitted):
     """What a measured log tells; returned by :func:`fretting.identify`.
 
@@ -51,6 +55,9 @@ class Identification(Fitted):
         skipped.
     skipped : dict of float to str
         Cycles that are no whole loop, by number, with the reason.
+    fits : list of dict
+        With ``every``, one for each group of cycles: ``cycle``, ``constants`` as above (empty where the cycle could not
+        be fitted), ``noise``, and ``why`` it was not fitted, or None.
     sliding_condition : str
         Of the fitted cycle: ``"partial_slip"``, ``"mixed"`` or ``"gross_slip"``.
     sliding_conditions : list of dict
@@ -69,10 +76,12 @@ class Identification(Fitted):
 
     def __init__(self, answer: Mapping[str, Any], page: str) -> None:
         super().__init__(answer, page, "identify", "cycles")
-        self.constants = {
-            entry["name"]: Constant(entry["value"], (entry["low"], entry["high"]), entry["told"])
-            for entry in answer["parameters"]
-        }
+        self.constants = _constants(answer["parameters"])
+        self.fits: list[dict[str, Any]] = [
+            {**fit, "constants": _constants(fit["parameters"])} for fit in answer["fits"]
+        ]
+        for fit in self.fits:
+            del fit["parameters"]
         rows = answer["cycles"]
         self.cycles = {
             name: np.array([np.nan if row[name] is None else row[name] for row in rows], dtype=float)
@@ -122,6 +131,7 @@ def identify(
     columns: Mapping[str, str | int] | None = None,
     units: Mapping[str, str] | None = None,
     cycle: float | None = None,
+    every: int | None = None,
     fit: str | None = None,
     strict: bool = False,
     threads: int | None = None,
@@ -146,6 +156,8 @@ def identify(
         names, or those of the case.
     cycle : float, optional
         Number of the cycle that is fitted. Default: the last whole one.
+    every : int, optional
+        Repeat the fit on the first whole cycle of every so many, over the whole test; see ``fits``.
     fit : str, optional
         A key of the case that is fitted too, such as ``"lower.substrate.young"``.
     strict : bool, default False
@@ -173,6 +185,9 @@ def identify(
     named = {"columns": {} if columns is None else columns, "units": {} if units is None else units}
     names_of, units_of = (list(mapping(name, given).items()) for name, given in named.items())
     names_of = [(role, str(column) if isinstance(column, int) else column) for role, column in names_of]
-    asked = names_of, units_of, cycle, fit, strict
+    if every is not None and every < 1:
+        msg = f"every = {every}: must be at least 1"
+        raise ValueError(msg)
+    asked = names_of, units_of, cycle, every, fit, strict
     json_text, page = _core.identify((str(log), content("log", log)), _case.read(case), asked, threads)
     return Identification(json.loads(json_text), page)

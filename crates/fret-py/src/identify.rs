@@ -9,8 +9,8 @@ use crate::case::Case;
 use crate::error::stopped;
 use crate::threads::{self, Threads};
 
-/// What is asked: columns, units, the cycle, the key, whether a log with bad cycles or rows is refused.
-type Asked = (Vec<(String, String)>, Vec<(String, String)>, Option<f64>, Option<String>, bool);
+/// What is asked: columns, units, the cycle, of how many cycles one is fitted, the key, whether a log with bad cycles or rows is refused.
+type Asked = (Vec<(String, String)>, Vec<(String, String)>, Option<f64>, Option<usize>, Option<String>, bool);
 
 /// Identifies a log, whose name and bytes are given, by a case; the answer as JSON text, and the page.
 #[pyfunction]
@@ -21,9 +21,9 @@ pub fn identify(
     asked: Asked,
     threads: Threads,
 ) -> PyResult<(String, String)> {
-    let (columns, units, cycle, key, strict) = asked;
-    let request =
-        IdentifyRequest { log: Request { asked: measured::Asked { columns, units }, cycle, strict }, key };
+    let (columns, units, cycle, every, key, strict) = asked;
+    let log_asked = Request { asked: measured::Asked { columns, units }, cycle, every, strict };
+    let request = IdentifyRequest { log: log_asked, key };
     let (name, bytes) = log;
     let pool = threads::pool(threads)?;
     let text = case.text()?;

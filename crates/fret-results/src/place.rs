@@ -19,6 +19,10 @@ pub fn resolved_path(path: &Path) -> PathBuf {
     let mut reached = PathBuf::new();
     for part in path.components() {
         match part {
+            // Above where the command is called: nothing of the way is yet gone.
+            Component::ParentDir if reached.as_os_str().is_empty() || reached.ends_with("..") => {
+                reached.push(part);
+            }
             // Where the way so far is there, the system says what lies above it: it may be a link.
             Component::ParentDir if reached.exists() => {
                 reached.push(part);
@@ -173,6 +177,15 @@ mod tests {
             assert_eq!(resolved_path(&bench.join(path)), bench.join(path), "{path}");
         }
         assert_eq!(resolved_path(Path::new("no-such-folder/..")), Path::new("."));
+        // Beside and above the folder that the command is called in.
+        for (path, name) in [
+            ("../no-such-folder", "../no-such-folder"),
+            ("../../no-such-folder", "../../no-such-folder"),
+            ("../new/../no-such-folder", "../no-such-folder"),
+            ("new/../../no-such-folder", "../no-such-folder"),
+        ] {
+            assert_eq!(resolved_path(Path::new(path)), Path::new(name), "{path}");
+        }
         fs::remove_dir_all(bench).unwrap();
     }
 

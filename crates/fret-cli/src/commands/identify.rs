@@ -37,7 +37,8 @@ pub fn identify(arguments: &IdentifyArguments) -> Result<Answer, Failure> {
         Question::Indentation(indentation_asked(arguments, asked(EXAMPLE_OF_DEPTH)?)?)
     } else {
         let (asked, strict) = (asked(EXAMPLE)?, arguments.strict);
-        let log = identify::Request { asked, cycle: arguments.cycle, strict };
+        let every = arguments.every.map(|every| every as usize);
+        let log = identify::Request { asked, cycle: arguments.cycle, every, strict };
         Question::Loops(Request { log, key: one_key(&arguments.fit)? })
     };
     let case_file = CaseFile::read(&arguments.case)?;
@@ -45,13 +46,15 @@ pub fn identify(arguments: &IdentifyArguments) -> Result<Answer, Failure> {
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.log));
     let folder = folder_for_answers(&folder, &[IDENTIFIED], "an identification")?;
     let log = (name.as_str(), &bytes[..]);
-    let Identified { record, text, page, table } = pool.install(|| match question {
+    let Identified { record, text, page, tables } = pool.install(|| match question {
         Question::Loops(request) => identified(log, &case_file, &request),
         Question::Indentation(request) => indentation(log, &case_file, &request),
     })?;
     write_whole(&folder.join(IDENTIFIED), format!("{record:#}\n").as_bytes())?;
     write_whole(&folder.join("identified.html"), page.as_bytes())?;
-    write_whole(&folder.join(table.0), table.1.as_bytes())?;
+    for (name, table) in &tables {
+        write_whole(&folder.join(name), table.as_bytes())?;
+    }
     let text = format!("{text}\nwritten to {}", folder.display());
     Ok(Answer::new(record, text, arguments.manner.quiet))
 }

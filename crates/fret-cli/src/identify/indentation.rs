@@ -55,7 +55,7 @@ pub fn indentation(
         record: record(found),
         text: text(found),
         page: page(found),
-        table: ("indentation.csv", points(found)),
+        tables: vec![("indentation.csv", points(found))],
     })
 }
 

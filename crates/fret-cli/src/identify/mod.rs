@@ -5,6 +5,7 @@ pub mod indentation;
 mod over_cycles;
 mod page;
 mod record;
+mod repeated;
 mod summary;
 mod table;
 #[cfg(test)]
@@ -49,8 +50,8 @@ pub struct Identified {
     pub text: String,
     /// The page with its pictures.
     pub page: String,
-    /// Name and content of a file: the cycles of the loops, or the points of the indentation, as CSV.
-    pub table: (&'static str, String),
+    /// Names and contents of files: the cycles of the loops and the fits repeated over them, or the points of the indentation, as CSV.
+    pub tables: Vec<(&'static str, String)>,
 }
 
 /// Identifies a log by a case.
@@ -67,11 +68,15 @@ pub fn identify(log: (&str, &[u8]), case_file: &CaseFile, request: &Request) -> 
             identify::identify(log, case, Some(key), &request.log)?
         }
     };
+    let mut tables = vec![("cycles.csv", table::table(&found))];
+    if !found.repeated.is_empty() {
+        tables.push(("fits.csv", repeated::table(&found)));
+    }
     Ok(Identified {
         record: record::record(&found),
         text: summary::summary(&found),
         page: page::page(&found),
-        table: ("cycles.csv", table::table(&found)),
+        tables,
     })
 }
 

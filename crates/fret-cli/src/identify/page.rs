@@ -4,6 +4,7 @@ use fret_core::identify::{Identification, MeasuredCycle};
 use maud::{Markup, html};
 
 use super::over_cycles;
+use super::repeated;
 use super::table::{COLUMNS, Column};
 use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::scale::{Label, ends};
@@ -30,6 +31,7 @@ pub fn page(found: &Identification) -> String {
             (stack(found, axes).figure("Fretting log: the loops one after the other, each moved to the right and up; the first at the bottom."))
         }
         (over_cycles::figures(found))
+        (repeated::figures(found))
         (rows(found))
         ul { @for note in &found.notes { li { (note) } } }
     };

@@ -4,6 +4,7 @@ use fret_core::identify::{Constant, Cycle, Identification};
 use serde_json::{Map, Value, json};
 
 use super::over_cycles;
+use super::repeated;
 use super::table::COLUMNS;
 
 /// Rows without a number that are named, at the most.
@@ -34,6 +35,7 @@ pub fn record(found: &Identification) -> Value {
         "sliding_conditions": over_cycles::record(found),
         "contact_stiffness": found.contact_stiffness,
         "cycles": found.cycles.iter().map(row).collect::<Vec<_>>(),
+        "fits": repeated::record(found),
         "measured": {"displacement": fitted.displacement, "force": fitted.force},
         "computed": {"displacement": along(0), "force": along(1), "shift": along(2)},
         "notes": found.notes,

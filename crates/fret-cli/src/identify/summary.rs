@@ -4,6 +4,7 @@ use fret_core::identify::{Identification, Quantities};
 
 use super::over_cycles::in_words;
 use super::record::rows_in_words;
+use super::repeated;
 use crate::figures::figure;
 use crate::summary::regime;
 
@@ -58,6 +59,7 @@ pub fn summary(found: &Identification) -> String {
     }
     lines.push(format!("  sliding condition      {}", regime(found.regime)));
     lines.extend(in_words(found).map(|words| format!("  over the cycles        {words}")));
+    lines.extend(repeated::in_words(found));
     let removed = &found.removed;
     lines.push(format!(
         "  removed from the log: displacement offset {}, drift {} over the cycle{}; force offset {}",

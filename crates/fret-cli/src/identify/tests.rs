@@ -36,8 +36,19 @@ fn a_cycle_that_was_skipped_is_named_and_empty() {
             }
         }
     }
-    let answer = answer(&log, &Request::default());
-    let (text, table, json) = (answer.text, answer.table.1, answer.record);
+    let log_asked = fret_core::identify::Request { every: Some(3), ..Default::default() };
+    let mut answer = answer(&log, &Request { log: log_asked, key: None });
+    let fits = answer.tables.pop().unwrap();
+    let (text, table, json) = (answer.text, answer.tables.remove(0).1, answer.record);
+    // The fit is repeated on the first and the fourth.
+    assert_eq!(fits.0, "fits.csv");
+    let fits: Vec<&str> = fits.1.lines().collect();
+    assert!(fits[0].starts_with("cycle,noise,friction_coefficient,friction_coefficient_low,friction_coefficient_high,rig_stiffness [N/mm],"));
+    assert!(fits.len() == 3 && fits[1].starts_with("1,") && fits[2].starts_with("4,"), "{fits:?}");
+    let friction = |row: &str| row.split(',').nth(2).unwrap().parse::<f64>().unwrap();
+    assert_eq!(json["fits"][1]["parameters"][0]["value"], friction(fits[2]));
+    assert!(text.contains("in cycle 1 to ") && text.contains("in cycle 4 (2 fits)"), "{text}");
+    assert!(answer.page.contains("friction coefficient over the cycles: fits, and their 95 % intervals"));
     assert!(
         text.starts_with("log.csv: 3 of 4 cycles used, fitted: cycle 4\n  skipped: 3 (points are missing"),
         "{text}"
@@ -104,8 +115,8 @@ fn indented(keys: &[&str], request: IndentationRequest) -> Result<Identified, Fa
 /// Text, record, table and page have the numbers of one answer; the modulus is that of the closed form to the error of 32 cells.
 #[test]
 fn an_indentation_is_written_as_one_answer() {
-    let answer = indented(&["lower.substrate.young"], IndentationRequest::default()).unwrap();
-    let (json, text, table, page) = (answer.record, answer.text, answer.table.1, answer.page);
+    let mut answer = indented(&["lower.substrate.young"], IndentationRequest::default()).unwrap();
+    let (json, text, table, page) = (answer.record, answer.text, answer.tables.remove(0).1, answer.page);
     let young = json["parameters"][0]["value"].as_f64().unwrap();
     assert!((young / 70e3 - 1.0).abs() < 0.01, "{young}");
     assert!((json["touch"].as_f64().unwrap() - 0.4e-3).abs() < 2e-6, "{json}");
@@ -165,12 +176,13 @@ fn forces_of_a_line_contact_are_those_of_a_unit_of_its_length() {
     };
     let refused = of("N").unwrap_err();
     assert!(refused.message().contains("the case is a line contact"), "{refused:?}");
-    let [plain, kilo] = ["N/mm", "kN/m"].map(|unit| of(unit).unwrap_or_else(|failure| panic!("{failure:?}")));
+    let [mut plain, mut kilo] =
+        ["N/mm", "kN/m"].map(|unit| of(unit).unwrap_or_else(|failure| panic!("{failure:?}")));
     let heads =
         "cycle,points,dissipated_energy [N],force_amplitude [N/mm],displacement_amplitude [mm],opening [mm],";
-    let (table, text, json) = (plain.table.1, plain.text, plain.record);
+    let (table, text, json) = (plain.tables.remove(0).1, plain.text, plain.record);
     assert!(table.starts_with(heads) && table.contains("slope_after_reversal [N/mm^2]"), "{table}");
-    assert_eq!(table, kilo.table.1);
+    assert_eq!(table, kilo.tables.remove(0).1);
     let friction = &json["parameters"][0];
     assert!((friction["value"].as_f64().unwrap() / 0.45 - 1.0).abs() < 0.01, "{json}");
     assert_eq!(json["parameters"][1]["unit"], "force/length^2");

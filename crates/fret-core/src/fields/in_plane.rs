@@ -61,7 +61,7 @@ impl InPlane {
         let way = [0, 1].map(|axis| self.pole[axis] - pole[axis] + self.by[axis]);
         if rest.abs() > NONE {
             let turn = Turn { turned: rest, pole, way, aspect: self.aspect };
-            0.5 * (turn.sheared(field.view(), outside) + turn.exchanged().sheared(field.t(), outside).t())
+            0.5 * (turn.sheared(&field.view(), outside) + turn.exchanged().sheared(&field.t(), outside).t())
         } else {
             carried(&field, way, outside)
         }
@@ -122,7 +122,7 @@ impl Turn {
     }
 
     /// A field so moved, by shears along x, y and x.
-    fn sheared(&self, field: ArrayView2<'_, f64>, outside: Outside) -> Array2<f64> {
+    fn sheared(&self, field: &ArrayView2<'_, f64>, outside: Outside) -> Array2<f64> {
         let Self { turned, pole, way, aspect } = *self;
         let (nx, ny) = field.dim();
         let middle = [nx, ny].map(|count| (count as f64 - 1.0) / 2.0);
@@ -159,7 +159,7 @@ fn quarter_turned(field: &Array2<f64>, pole: [f64; 2], quarters: usize) -> (Arra
 }
 
 /// A field with so many cells more on either side along x.
-fn widened(field: ArrayView2<'_, f64>, by: usize, outside: Outside) -> Array2<f64> {
+fn widened(field: &ArrayView2<'_, f64>, by: usize, outside: Outside) -> Array2<f64> {
     let (nx, ny) = field.dim();
     Array2::from_shape_fn((nx + 2 * by, ny), |(i, j)| {
         let inside = (by..by + nx).contains(&i);

@@ -16,6 +16,7 @@ use super::found::{Constant, Fitted, fitted};
 use super::log;
 use super::model::Model;
 use super::quantities::{Known, Quantities};
+use super::repeated::{RepeatedFit, repeated};
 use super::request::{Key, Request};
 
 /// What a log tells; lengths and forces in the units of the case, forces and energies of a line contact those of a unit of its length.
@@ -49,6 +50,8 @@ pub struct Identification {
     pub contact_stiffness: f64,
     /// All cycles of the log.
     pub cycles: Vec<Cycle>,
+    /// The fit repeated over them, where that was asked for.
+    pub repeated: Vec<RepeatedFit>,
     /// The computed loop: displacement of the actuator, tangential force, displacement of the contact, around from the largest displacement.
     pub computed: Vec<[f64; 3]>,
     /// What the data cannot tell, and what was assumed.
@@ -120,6 +123,8 @@ pub fn identify(
     let model = Model::new(case, key)?;
     let place = cycles::choose(&measured, request.cycle, name)?;
     let found = fitted(name, &measured[place], &model, drift::bend(&measured, place))?;
+    let every = request.every.map(|every| repeated(name, &measured, &model, every));
+    let mut repeated = every.transpose()?.unwrap_or_default();
     let friction = found.friction().or_else(|| model.friction()).unwrap_or(0.5);
     // Without it friction is not read from the single cycles; the fit itself stands.
     let flanks = Flanks::of(&model, friction, found.value_of_key).ok();
@@ -140,7 +145,8 @@ pub fn identify(
         .collect();
     let Fitted { mut constants, normal_force, noise, removed, contact_stiffness, slides, computed, .. } =
         found;
-    for constant in &mut constants {
+    let of_repeated = repeated.iter_mut().flat_map(|fit| &mut fit.constants);
+    for constant in constants.iter_mut().chain(of_repeated) {
         constant.unit = dimension.kind(constant.unit);
     }
     notes.extend(found.notes);
@@ -166,6 +172,7 @@ pub fn identify(
         regime: regime(own.contact_energy_ratio.unwrap_or(own.energy_ratio), slides),
         contact_stiffness,
         cycles,
+        repeated,
         computed,
         notes,
     })

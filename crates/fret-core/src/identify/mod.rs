@@ -3,8 +3,8 @@
 //!
 //! From the ground: `request` and `error`; `log` (which columns there are); `turns` of a signal,
 //! `cycles` (which are whole), `direction`, `drift`; `computed` (a loop between its points), `model` (the loop that the solver computes),
-//! `flanks`, `quantities` (what is read from a cycle); `start`, `intervals`, `feet` (of points on a loop), `fit` (least squares), `found`; the answer in
-//! `identification`. Beside it, for numbers of a case from load over depth, `indentation`: `request`; `load_curve`, `indenter` (the curve that the
+//! `flanks`, `quantities` (what is read from a cycle); `start`, `intervals`, `feet` (of points on a loop), `fit` (least squares), `found`, `repeated` (over
+//! the cycles); the answer in `identification`. Beside it, for numbers of a case from load over depth, `indentation`: `request`; `load_curve`, `indenter` (the curve that the
 //! solver computes), `log` (which rows are fitted), `start`, `fit` with `feet`, `scaling` and `sureness`, `notes`; the answer in `indentation` itself.
 
 mod computed;
@@ -22,6 +22,7 @@ mod intervals;
 mod log;
 mod model;
 mod quantities;
+mod repeated;
 mod request;
 mod start;
 #[cfg(test)]
@@ -35,4 +36,5 @@ pub use found::Constant;
 pub use identification::{Cycle, Identification, Removed, identify};
 pub use indentation::{Indentation, IndentationRequest, Numbers, Part, indentation};
 pub use quantities::Quantities;
+pub use repeated::RepeatedFit;
 pub use request::{Key, Request};

@@ -10,6 +10,8 @@ pub struct Request {
     pub asked: Asked,
     /// The cycle that is fitted; default: the last whole one.
     pub cycle: Option<f64>,
+    /// The fit is repeated on the first whole cycle of each group of so many.
+    pub every: Option<usize>,
     /// Whether a log with a cycle that is no whole loop, or a row without a number, is refused; else these are skipped and named.
     pub strict: bool,
 }
