@@ -78,7 +78,7 @@ def gradient(
         When the case is refused.
     ValueError
         When a result or a number is not one of the case, or the case is of a kind that is not covered: with wear
-        by more than one coefficient or in jumps over cycles, evolving friction, bulk stress, surfaces that move, or
+        by more than one coefficient, evolving friction, bulk stress, surfaces that move, or
         increments in parts.
     RunError
         When the run fails, or the linear equations of an increment are not solved.

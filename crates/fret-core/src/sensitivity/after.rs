@@ -29,6 +29,8 @@ pub(super) struct After<'a> {
     energies: Energies<'a>,
     wear: Option<Wear>,
     goes_on: bool,
+    /// Cycles of the block that ends with it; none where nothing ends.
+    block: usize,
 }
 
 impl<'a> After<'a> {
@@ -51,7 +53,7 @@ impl<'a> After<'a> {
         let forces = scene.resultants([pressure, x, y]);
         let energies = Energies::new(scene, [now, before], (law, rule));
         let wear = scene.plan.case.wear.as_ref().map(|of| Wear::new(of, scene, [now, before], (law, rule)));
-        Self { scene, forces, entered, energies, wear, goes_on }
+        Self { scene, forces, entered, energies, wear, goes_on, block: now.block }
     }
 
     /// Completes the changes of `next`, of which the loads are known.
@@ -84,8 +86,11 @@ impl<'a> After<'a> {
             self.energies.forward(&Inputs { before, next, solution, paths, friction: drive.friction });
         if let Some(wear) = &self.wear {
             let inputs = Inputs { before, next, solution, paths, friction: drive.friction };
-            let collected = wear.forward(&inputs, drive.wear);
-            (next.worn, next.collected) = wear.taken_off(before, collected);
+            next.collected = wear.forward(&inputs, drive.wear);
+            next.worn.clone_from(&before.worn);
+        }
+        if self.block > 0 {
+            next.end_block(self.block);
         }
         let forces = scene.resultants([pressure, x, y]);
         next.reached = scene.reached(forces, &solution.motions, scene.springs());
@@ -137,13 +142,17 @@ impl<'a> After<'a> {
             displacements: super::fields::zeros(cells),
             motions: [0.0; MOTIONS],
         };
+        if self.block > 0 {
+            next.end_block_transposed(self.block);
+        }
         if let Some(wear) = &self.wear {
-            let collected = wear.taken_off_transposed(next, before);
+            add_scaled(&mut before.worn, 1.0, &next.worn);
+            let collected = std::mem::take(&mut next.collected);
             let Drive { friction, wear: coefficient, .. } = drive;
             let mut to = Outputs { before, next, solution: &mut solution, paths, friction };
             wear.transposed(&collected, &mut to, coefficient);
         }
-        if next.energies != [0.0; 4] {
+        if next.energies != [0.0; 5] {
             let energies = next.energies;
             let Drive { friction, .. } = drive;
             let mut to = Outputs { before, next, solution: &mut solution, paths, friction };

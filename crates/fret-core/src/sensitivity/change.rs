@@ -27,8 +27,8 @@ pub(super) struct Change {
     pub collected: Vec<f64>,
     /// Rotations times the length.
     pub motions: [f64; MOTIONS],
-    /// Dissipated, stored, external and unresolved energy of the whole contact.
-    pub energies: [f64; 4],
+    /// Dissipated, stored, external and unresolved energy of the whole contact, and what has been dissipated since the cycle began.
+    pub energies: [f64; 5],
     pub reached: Reached,
     /// Load at the start of the stage and at the end of the increment, of the whole contact.
     pub start: [f64; FREEDOMS],
@@ -53,7 +53,7 @@ impl Change {
             worn: Vec::new(),
             collected: Vec::new(),
             motions: [0.0; MOTIONS],
-            energies: [0.0; 4],
+            energies: [0.0; 5],
             reached: Reached::default(),
             start: [0.0; FREEDOMS],
             held: [0.0; FREEDOMS],
@@ -80,6 +80,22 @@ impl Change {
     pub fn of_wear(self, wears: bool) -> Self {
         let cells = if wears { self.gap.len() } else { 0 };
         Self { worn: vec![0.0; cells], collected: vec![0.0; cells], ..self }
+    }
+
+    /// Ends a block of cycles, of which the one that was computed stands for all: each takes off what that has collected, and dissipates its energy.
+    pub fn end_block(&mut self, cycles: usize) {
+        let cycles = cycles as f64;
+        self.worn.iter_mut().zip(&self.collected).for_each(|(worn, more)| *worn += cycles * more);
+        self.collected.fill(0.0);
+        self.energies[0] += (cycles - 1.0) * self.energies[4];
+        self.energies[4] = 0.0;
+    }
+
+    /// Backwards.
+    pub fn end_block_transposed(&mut self, cycles: usize) {
+        let cycles = cycles as f64;
+        self.collected.iter_mut().zip(&self.worn).for_each(|(more, worn)| *more = cycles * worn);
+        self.energies[4] = (cycles - 1.0) * self.energies[0];
     }
 
     /// Whether all are zero.

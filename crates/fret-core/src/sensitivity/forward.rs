@@ -155,8 +155,11 @@ pub(super) fn forward(
                     });
                 }
                 (course.before.start, course.before.held) = (after.start, after.held);
+                if step.block > 0 {
+                    course.before.end_block(step.block);
+                }
             }
-            past[0].zone = step.in_region(scene.region).1;
+            past[0].stood(step, last, scene.region);
         }
         let changes: Vec<&Change> = courses.iter().map(|course| &course.before).collect();
         if visit((step, &past[0]), &changes).is_break() {

@@ -15,7 +15,7 @@ use super::forward::forward;
 use super::objective::{Column, Objective, Row, value_of};
 use super::parameter::Parameter;
 use super::past::{Past, bytes_per_cell, length_of_segments};
-use super::refusals::{check, check_history, check_request, check_wear};
+use super::refusals::{check, check_history, check_jumps, check_request};
 use super::scene::Scene;
 use super::snapshot::Snapshot;
 use super::work::Work;
@@ -170,7 +170,8 @@ fn derivatives(
     Simulation::new(plan).with_compliance(Some(Arc::clone(&pair))).run(&mut run)?;
     let Snapshots { mut steps, cycles, observer } = run;
     end_blocks(&mut steps, &cycles);
-    check_wear(plan, &cycles)?;
+    let names = sums.iter().flat_map(|sum| &sum.parts).map(|(name, _)| name.as_str());
+    check_jumps(&cycles, names)?;
     if let Some(step) = steps.iter().find(|step| step.record.parts > 1) {
         return Err(SensitivityError::Parts { increment: step.record.increment, parts: step.record.parts });
     }
@@ -224,12 +225,13 @@ fn derivatives(
     Ok(Sensitivities { parameters, gradients, near_events, direction, work })
 }
 
-/// Tells the increments with which a cycle, or a stage without cycles, ends.
+/// Tells the increments with which a cycle, or a stage without cycles, ends, and for how many cycles it stands.
 pub(super) fn end_blocks(steps: &mut [Snapshot], cycles: &[CycleRecord]) {
     for number in 0..steps.len() {
         let stage = steps[number].record.stage;
         let ends_stage = steps.get(number + 1).is_none_or(|next| next.record.stage != stage);
-        steps[number].ends_block = ends_stage || cycles.iter().any(|cycle| cycle.last_increment == number);
+        let cycle = cycles.iter().find(|cycle| cycle.last_increment == number);
+        steps[number].block = cycle.map_or(usize::from(ends_stage), |cycle| cycle.stands_for);
     }
 }
 

@@ -125,7 +125,9 @@ impl Objective {
                 let of = cycles.get(*cycle);
                 let of =
                     of.ok_or_else(|| refused(format!("the history has {} cycles, from 0", cycles.len())))?;
-                Ok(vec![(Some(of.last_increment), 1.0), (of.first_increment.checked_sub(1), -1.0)])
+                // It is dissipated as often as there are cycles that it stands for.
+                let each = 1.0 / of.stands_for as f64;
+                Ok(vec![(Some(of.last_increment), each), (of.first_increment.checked_sub(1), -each)])
             }
             Self::Stress { .. } | Self::Fatigue { .. } => Ok(Vec::new()),
         }

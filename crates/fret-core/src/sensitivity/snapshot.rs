@@ -25,8 +25,8 @@ pub(super) struct Snapshot {
     tilt: [f64; 2],
     /// Depth worn off both bodies together, after what happens to the surfaces where a cycle or a stage ends [length].
     pub worn: Option<Arc<Array2<f64>>>,
-    /// Whether a cycle or a stage without cycles ends with it, whose wear is taken off then.
-    pub ends_block: bool,
+    /// Cycles of the block that ends with it, whose wear is taken off then; of a stage without cycles one, and none where nothing ends.
+    pub block: usize,
 }
 
 impl Snapshot {
@@ -55,7 +55,7 @@ impl Snapshot {
                 let same = last.and_then(|last| last.worn.as_ref()).filter(|known| ***known == *depth);
                 same.map_or_else(|| Arc::new(depth.clone()), Arc::clone)
             }),
-            ends_block: false,
+            block: 0,
         }
     }
 
@@ -66,6 +66,11 @@ impl Snapshot {
             (Some(now), None) => now.iter().any(|depth| *depth != 0.0),
             (None, _) => false,
         }
+    }
+
+    /// Depth worn off in a region of the grid; nothing where nothing wears.
+    pub fn worn_in(&self, region: Region) -> Vec<f64> {
+        self.worn.as_ref().map_or_else(Vec::new, |depth| region.gather(depth))
     }
 
     /// Motions of the state, without cells.
