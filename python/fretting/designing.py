@@ -11,17 +11,13 @@ from fretting import _case
 from fretting._arguments import mapping, real, text, whole
 from fretting._arrays import Reals
 from fretting._function import Results
+from fretting._limits import Limit, Side, bounds_of, in_words, limit_in_words, limit_of, objective_of
 from fretting._points import Table
 from fretting.differentiating import near_in_words
 from fretting.errors import DesignError, Evaluation, FrettingError
 from fretting.history import History
 from fretting.planning import plan
 from fretting.simulation import run
-
-Side = float | Mapping[str, float]
-"""A value, or the weights of results and numbers whose sum it is."""
-Limit = tuple[Side | None, Side | None]
-"""Least and largest value; ``None`` where there is none."""
 
 MET = 1e-4
 """A limit is met that is exceeded by no more than so much of itself, and is active that is as near."""
@@ -170,11 +166,11 @@ class _Question:
         limits: Mapping[str, Limit] | None,
         threads: int | None,
     ) -> None:
-        self.sign, self.weights = _objective(*objectives)
+        self.sign, self.weights = objective_of(*objectives)
         self.limits = {
-            text("limits", name): _limit(name, pair) for name, pair in mapping("limits", limits or {}).items()
+            text("limits", name): limit_of(name, pair) for name, pair in mapping("limits", limits or {}).items()
         }
-        bounds = {text("by", path): _bounds(path, pair) for path, pair in mapping("by", by).items()}
+        bounds = {text("by", path): bounds_of(path, pair) for path, pair in mapping("by", by).items()}
         others = [name for pair in self.limits.values() for side in pair if isinstance(side, dict) for name in side]
         of = [name for name in dict.fromkeys([*self.weights, *self.limits, *others]) if name not in bounds]
         self.results = Results(case, of, list(bounds), threads)
@@ -404,18 +400,6 @@ class _Question:
         return words, prices, float(np.abs(left).max())
 
 
-def in_words(numbers: Mapping[str, float]) -> str:
-    """Numbers with their paths."""
-    return ", ".join(f"{path} = {number:.6g}" for path, number in numbers.items())
-
-
-def limit_in_words(limit: Side) -> str:
-    """A limit as a number, or as the sum that it is."""
-    if isinstance(limit, int | float):
-        return f"{limit:g}"
-    return " + ".join(f"{weight:g} {name}" for name, weight in limit.items())
-
-
 def _reason(found: Any, exceeded: str, question: _Question) -> str:
     """Why there is no design, and what to try."""
     last = dict(zip(question.results.by, map(float, question.numbers(found.x)), strict=True))
@@ -434,49 +418,3 @@ def _reason(found: Any, exceeded: str, question: _Question) -> str:
         "that change their state make kinks: a finer grid, a smaller tolerance of the solver, or a wider one of the "
         "design"
     )
-
-
-def _objective(minimize: Any, maximize: Any) -> tuple[float, dict[str, float]]:
-    if (minimize is None) == (maximize is None):
-        raise ValueError("minimize, maximize: expected one of both, such as minimize='max_pressure'")
-    name, given, sign = ("minimize", minimize, 1.0) if maximize is None else ("maximize", maximize, -1.0)
-    if isinstance(given, str):
-        return sign, {given: 1.0}
-    weights = {text(name, key): real(f"{name}[{key!r}]", weight) for key, weight in mapping(name, given).items()}
-    if not weights or not all(math.isfinite(weight) for weight in weights.values()):
-        raise ValueError(f"{name}: expected a result, or results with finite weights, such as {{'max_pressure': 1.0}}")
-    return sign, weights
-
-
-def _pair(name: str, pair: Any) -> tuple[Any, Any]:
-    try:
-        low, high = pair
-    except (TypeError, ValueError):
-        raise ValueError(f"{name}: expected a pair, the least and the largest value") from None
-    return low, high
-
-
-def _bounds(path: str, pair: Any) -> tuple[float, float]:
-    low, high = (real(f"by[{path!r}]", side) for side in _pair(f"by[{path!r}]", pair))
-    if not (math.isfinite(low) and math.isfinite(high) and low < high):
-        raise ValueError(f"by[{path!r}] = ({low:g}, {high:g}): must be finite and rise")
-    return low, high
-
-
-def _limit(name: str, pair: Any) -> Limit:
-    low, high = (_side(f"limits[{name!r}]", side) for side in _pair(f"limits[{name!r}]", pair))
-    numbers = [side for side in (low, high) if isinstance(side, float)]
-    if (low is None and high is None) or not all(map(math.isfinite, numbers)) or numbers != sorted(set(numbers)):
-        raise ValueError(f"limits[{name!r}]: expected the least and the largest value, None where there is none")
-    return low, high
-
-
-def _side(name: str, side: Any) -> Side | None:
-    if side is None:
-        return None
-    if not isinstance(side, Mapping):
-        return real(name, side)
-    weights = {text(name, key): real(f"{name}[{key!r}]", weight) for key, weight in side.items()}
-    if not weights or not all(math.isfinite(weight) for weight in weights.values()):
-        raise ValueError(f"{name}: expected a value, or results and numbers with finite weights")
-    return weights

@@ -54,7 +54,7 @@ def gradient(
         Results: a column of the last increment (``"max_pressure"``), of another (``"increments[7].shift_x"``), the
         energy of a cycle (``"cycles[0].dissipated_energy"``), the largest stress below the surface
         (``"stress.von_mises"``, ``"increments[7].stress.interface_shear"``), the largest fatigue parameter of a cycle
-        (``"fatigue.crossland"``, ``"cycles[0].fatigue.dang_van"``).
+        (``"fatigue.crossland"``, ``"cycles[0].fatigue.dang_van"``, ``"fatigue.ruiz_f1"``).
     by : str or iterable of str
         Numbers of the case by their paths: ``"friction.coefficient"``, ``"friction.max_shear"``,
         ``"lower.coatings[0].young"``, ``"lower.substrate.poisson"``, ``"lower.coatings[0].thickness"``,

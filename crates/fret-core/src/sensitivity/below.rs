@@ -9,6 +9,7 @@ use super::error::SensitivityError;
 use super::field_weights::FieldWeights;
 use super::objective::Column;
 use super::parameter::{BodyNumber, Parameter, ResidualNumber};
+use super::ruiz::ruiz;
 use super::scene::Scene;
 use super::snapshot::Snapshot;
 use crate::case::Side;
@@ -37,24 +38,30 @@ pub(super) fn below(
     let Some(beneath) = Beneath::of(scene.plan, steps, numbers)? else { return Ok(Vec::new()) };
     let found = beneath.largest(numbers)?;
     let of = |((name, number), found): (&(String, Number), Option<Found>)| {
+        let what =
+            if matches!(number, Number::Ruiz { .. }) { "the surface is not" } else { "no interface is" };
         let found = found.ok_or_else(|| SensitivityError::Objective {
             name: name.clone(),
-            reason: "no interface is among the depths of the case".to_owned(),
+            reason: format!("{what} among the depths of the case"),
         })?;
+        if let Number::Ruiz { with_tension, .. } = number {
+            let (largest, fields) = Largest::at(&beneath, number, found)?;
+            return ruiz((largest, &fields), *with_tension, scene, parameters);
+        }
         Largest::of(&beneath, number, found)?.differentiated(scene, parameters)
     };
     numbers.iter().zip(found).map(of).collect()
 }
 
 /// The largest value of a number, with the stresses that make it.
-struct Largest<'a> {
-    beneath: &'a Beneath<'a>,
-    found: Found,
+pub(super) struct Largest<'a> {
+    pub beneath: &'a Beneath<'a>,
+    pub found: Found,
     operator: DepthOperator,
     /// Surfaces of the increments that it is made of.
-    surfaces: Vec<usize>,
+    pub surfaces: Vec<usize>,
     /// Cells whose stresses it is made of: its derivatives by each, increment by increment.
-    cells: Vec<([usize; 2], Vec<StressTensor>)>,
+    pub cells: Vec<([usize; 2], Vec<StressTensor>)>,
     /// Cells whose pressures it is made of: number of the surface, cell, derivative.
     pressures: Vec<(usize, [usize; 2], f64)>,
     /// Derivatives by Young's modulus and Poisson's ratio of the layer.
@@ -62,13 +69,18 @@ struct Largest<'a> {
 }
 
 impl<'a> Largest<'a> {
-    fn of(beneath: &'a Beneath<'a>, number: &Number, found: Found) -> Result<Self, SensitivityError> {
+    /// The place, with the stresses at its depth increment by increment; nothing counts yet.
+    fn at(
+        beneath: &'a Beneath<'a>,
+        number: &Number,
+        found: Found,
+    ) -> Result<(Self, Vec<StressField>), SensitivityError> {
         let (half_space, (grid, periodic)) = (beneath.half_space, beneath.grid());
         let surfaces = beneath.surfaces_of(&number.increments());
         let with_shear = !beneath.plan.case.is_frictionless();
         let operator = DepthOperator::new(half_space, found.point, grid, periodic, with_shear, false);
         let mut operator = operator.map_err(failed)?;
-        let fields: Vec<StressField> = surfaces
+        let fields = surfaces
             .iter()
             .map(|&surface| {
                 let mut field = operator.stress(&beneath.tractions(surface));
@@ -76,6 +88,13 @@ impl<'a> Largest<'a> {
                 field
             })
             .collect();
+        let (cells, pressures, by_material) = (Vec::new(), Vec::new(), [0.0; 2]);
+        Ok((Self { beneath, found, operator, surfaces, cells, pressures, by_material }, fields))
+    }
+
+    fn of(beneath: &'a Beneath<'a>, number: &Number, found: Found) -> Result<Self, SensitivityError> {
+        let (largest, fields) = Self::at(beneath, number, found)?;
+        let (half_space, Self { found, surfaces, .. }) = (beneath.half_space, &largest);
         let at =
             |[i, j]: [usize; 2]| -> Vec<StressTensor> { fields.iter().map(|field| field.at(i, j)).collect() };
         let material = material_of(half_space, found.point.layer);
@@ -86,6 +105,7 @@ impl<'a> Largest<'a> {
                 let found = material.and_then(|material| parameter.of(&at(cell), &material, &constants));
                 found.map_or(0.0, |found| found.value)
             }
+            Number::Ruiz { .. } => 0.0,
         };
         let beside = |surface: &usize| {
             let pressure = &beneath.surfaces[*surface].pressure;
@@ -117,14 +137,15 @@ impl<'a> Largest<'a> {
                     }
                     slopes.by_stress
                 }
+                Number::Ruiz { .. } => vec![StressTensor::default(); cycle.len()],
             };
             (cell, by_stress.into_iter().map(|by| StressTensor(by.0.map(|part| factor * part))).collect())
         };
         let cells = made_of.into_iter().map(&mut slopes).collect();
-        Ok(Self { beneath, found, operator, surfaces, cells, pressures, by_material })
+        Ok(Self { cells, pressures, by_material, ..largest })
     }
 
-    fn differentiated(
+    pub fn differentiated(
         mut self,
         scene: &Scene<'_>,
         parameters: &[Parameter],

@@ -155,6 +155,7 @@ pub(super) fn forward(
                     });
                 }
                 (course.before.start, course.before.held) = (after.start, after.held);
+                course.before.slip.iter_mut().for_each(|slip| slip.fill(0.0));
                 if step.block > 0 {
                     course.before.end_block(step.block);
                 }

@@ -165,13 +165,15 @@ fn derivatives(
 ) -> Result<Sensitivities, SensitivityError> {
     let names = sums.iter().flat_map(|sum| &sum.parts).map(|(name, _)| name.as_str());
     let parameters = asked(plan, (names, sums.iter().any(|sum| !sum.fields.is_empty())), by)?;
-    let mut run = Snapshots { steps: Vec::new(), cycles: Vec::new(), observer };
+    let objectives = sums.iter().flat_map(|sum| &sum.parts).map(|(name, _)| Objective::new(name));
+    let objectives = objectives.collect::<Result<Vec<_>, _>>()?;
+    let with_slip = objectives.iter().any(|objective| matches!(objective, Objective::Ruiz { .. }));
+    let mut run = Snapshots { steps: Vec::new(), cycles: Vec::new(), with_slip, observer };
     let pair = Arc::new(PairCompliance::of(plan));
     Simulation::new(plan).with_compliance(Some(Arc::clone(&pair))).run(&mut run)?;
-    let Snapshots { mut steps, cycles, observer } = run;
+    let Snapshots { mut steps, cycles, observer, .. } = run;
     end_blocks(&mut steps, &cycles);
-    let names = sums.iter().flat_map(|sum| &sum.parts).map(|(name, _)| name.as_str());
-    check_jumps(&cycles, names)?;
+    check_jumps(&cycles, &objectives)?;
     if let Some(step) = steps.iter().find(|step| step.record.parts > 1) {
         return Err(SensitivityError::Parts { increment: step.record.increment, parts: step.record.parts });
     }
@@ -304,6 +306,8 @@ impl Sum<'_> {
 pub(super) struct Snapshots<'a> {
     pub steps: Vec<Snapshot>,
     pub cycles: Vec<CycleRecord>,
+    /// Whether slip is asked for.
+    pub with_slip: bool,
     pub observer: &'a mut dyn Observer,
 }
 
@@ -318,7 +322,7 @@ impl Observer for Snapshots<'_> {
         state: MirroredState<'_>,
         kept: Option<&KeptFields>,
     ) -> ControlFlow<()> {
-        let snapshot = Snapshot::of(record, state.part, self.steps.last());
+        let snapshot = Snapshot::of(record, (state.part, self.with_slip), self.steps.last());
         self.steps.push(snapshot);
         self.observer.solved(record, state, kept)
     }

@@ -32,8 +32,10 @@ mod parameter;
 mod past;
 mod refusals;
 mod replay;
+mod ruiz;
 mod rule;
 mod scene;
+mod slip;
 mod snapshot;
 mod solved;
 #[cfg(test)]
