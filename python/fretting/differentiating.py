@@ -182,8 +182,13 @@ def vjp(
     return dict(_core.pulled_back(_case.read(case), pairs, fields, texts("by", by), threads))
 
 
+def is_below(name: str) -> bool:
+    """Whether a result with derivatives is a stress below the surface, or made of such, and no column of a history."""
+    return re.search(r"(^|\.)(stress|fatigue)\.", name) is not None
+
+
 def value_of(increments: Mapping[str, Any], cycles: Mapping[str, Any], name: str) -> float:
-    """Return a result of a history by its name, which is one of results with derivatives."""
+    """Return a result of a history by its name, which is one of the columns with derivatives."""
     found = re.fullmatch(r"(increments|cycles)\[(\d+)\]\.(\w+)", name)
     if found is None:
         return float(increments[name][-1])

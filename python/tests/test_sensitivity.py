@@ -72,6 +72,13 @@ def test_ruiz_parameters_are_those_of_the_history() -> None:
         assert total == pytest.approx(power * gradient["value"], rel=1e-6), name
 
 
+def test_a_function_of_numbers_has_stresses() -> None:
+    """Without derivatives they are those that come with them."""
+    results = Results(CASE, ["increments[3].stress.tension", "fatigue.ruiz_f1", "approach"], FORCES, None)
+    values, _ = results.differentiated(np.array([12.0, 1.5]))
+    assert (results.values(np.array([12.0, 1.5])) == values).all()
+
+
 def test_cells_about_to_change_their_state_are_told() -> None:
     # A force that turns back by a ten-millionth: the cells that slid stick, as near to their bound; before it none is.
     slid = {"tangential_force": [1.5, 0.0], "increments": 4}
