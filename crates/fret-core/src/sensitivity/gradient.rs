@@ -7,11 +7,12 @@ use std::sync::Arc;
 use ndarray::Array2;
 
 use super::backward::{Found, Target, backward};
-use super::below::{Below, below};
+use super::below::below;
 use super::error::SensitivityError;
 use super::events::{NearEvents, SideOfEvents};
 use super::field_weights::FieldWeights;
 use super::forward::forward;
+use super::largest::Below;
 use super::objective::{Column, Objective, Row, value_of};
 use super::parameter::Parameter;
 use super::past::{Past, bytes_per_cell, length_of_segments};

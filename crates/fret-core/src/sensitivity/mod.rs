@@ -24,6 +24,7 @@ mod forward;
 mod gradient;
 mod increment;
 mod krylov;
+mod largest;
 mod linearised;
 mod loads;
 mod objective;

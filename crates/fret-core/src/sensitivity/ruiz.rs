@@ -3,9 +3,9 @@
 
 use ndarray::Array2;
 
-use super::below::{Below, Largest};
 use super::error::SensitivityError;
 use super::field_weights::{FieldWeights, SLIP};
+use super::largest::{Below, Largest};
 use super::objective::Column;
 use super::parameter::Parameter;
 use super::scene::Scene;
