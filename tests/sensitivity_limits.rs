@@ -132,15 +132,15 @@ fn what_is_not_covered_is_refused() {
     }
 }
 
-/// Jumps over cycles, and energies that the worn gap has a part in.
+/// Energies that the worn gap has a part in: of a cycle that stands for more than itself, and of any.
 #[test]
-fn wear_in_jumps_is_refused() {
+fn energies_of_surfaces_that_wear_are_refused() {
     let text = "[grid]\ncells = [16, 16]\nsize = [3.0, 3.0]\n[upper]\nrigid = true\n[lower]\nsubstrate = { young = 1.0, poisson = 0.3 }\n\
                 [profile.sphere]\nradius = 10.0\n[friction]\ncoefficient = 0.4\n[wear]\ncoefficient = 1e-3\nevery = 5\n[[load]]\n\
                 normal_force = 0.1\nincrements = 2\n[[load]]\ntangential_force = [0.03, 0.0]\ncycles = 20\nincrements = 4\n";
     let message =
         |text: &str, of: &str| found(&planned(text), &[of], &["wear.coefficient"]).unwrap_err().to_string();
-    assert!(message(text, "worn_volume").contains("every = 1"));
+    assert!(message(text, "external_work").contains("every = 1"));
     let one_by_one = text.replace("every = 5", "every = 1");
     assert!(message(&one_by_one, "unresolved_energy").contains("surfaces that wear"));
 }

@@ -117,6 +117,28 @@ fn fatigue_parameters_at_their_largest_place_are_differentiated() {
     }
 }
 
+/// Ruiz's parameters of both bodies, and of a line contact whose slip grows until it slides and whose edge opens as the force falls.
+#[test]
+fn ruiz_parameters_at_their_largest_place_are_differentiated() {
+    let of = ["cycles[0].fatigue.ruiz_f1", "fatigue.ruiz_f2"].map(str::to_owned);
+    for body in ["lower", "upper"] {
+        let text = COATED.replace("<stress>", &format!("body = \"{body}\""));
+        let worst = worst(&text, &NUMBERS, &of, 1e-5);
+        assert!(worst < 1e-5, "{body}: {worst:e}");
+    }
+    let line = "[grid]\ncells = 64\nsize = 3.0\n[upper]\nrigid = true\n[lower]\nsubstrate = { young = 1.0, poisson = 0.3 }\n\
+                [profile.cylinder]\nradius = <R>\naxis = \"y\"\n[friction]\ncoefficient = <mu>\n[solver]\ntolerance = 1e-11\n\
+                [[load]]\nnormal_force = <P>\nincrements = 2\n[[load]]\nshift = [<d>, 0.0]\nnormal_force = 0.1\ncycles = 1\nincrements = 8\n";
+    let numbers = [
+        ("R", 4.0, "profile.cylinder.radius"),
+        ("mu", 0.3, "friction.coefficient"),
+        ("d", 0.2, "load[1].shift[0]"),
+        ("P", 0.2, "load[0].normal_force"),
+    ];
+    let worst = worst(line, &numbers, &of, 1e-5);
+    assert!(worst < 1e-5, "line: {worst:e}");
+}
+
 /// Given depths, tension at the rim of a contact that slides, in a line contact and in a period, where friction and loads are numbers.
 #[test]
 fn stresses_below_lines_and_periods_are_differentiated() {
@@ -210,11 +232,16 @@ fn stresses_that_a_case_does_not_have_are_refused() {
         ("increments[99].stress.tension", "11 increments"),
         ("fatigue.crossland", "fatigue limits"),
         ("cycles[3].fatigue.shakedown_strength", "1 cycles"),
-        ("fatigue.ruiz", "smith_watson_topper"),
+        ("fatigue.ruiz", "shakedown_strength, ruiz_f1, ruiz_f2"),
     ] {
         let found = message(&plan, of);
         assert!(found.contains(word), "{of}: {found}");
     }
+    let deep = planned(
+        &Written { text: &text.replace("[stress]", "[stress]\ndepths = [0.1]"), numbers: &NUMBERS }
+            .case(None),
+    );
+    assert!(message(&deep, "fatigue.ruiz_f1").contains("the surface is not among"));
     let bare = text.replace(", interface = { shear_stiffness = <ks> } }]", " }]");
     let bare = bare.replace("coatings = [{ thickness = <h>, young = <E>, poisson = <nu> }]\n", "");
     let plan = planned(&Written { text: &bare, numbers: &NUMBERS }.case(None));

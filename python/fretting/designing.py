@@ -11,15 +11,13 @@ from fretting import _case
 from fretting._arguments import mapping, real, text, whole
 from fretting._arrays import Reals
 from fretting._function import Results
+from fretting._limits import Limit, Side, bounds_of, in_words, limit_in_words, limit_of, objective_of
 from fretting._points import Table
 from fretting.differentiating import near_in_words
 from fretting.errors import DesignError, Evaluation, FrettingError
 from fretting.history import History
 from fretting.planning import plan
 from fretting.simulation import run
-
-Limit = tuple[float | None, float | None]
-"""Least and largest value; ``None`` where there is none."""
 
 MET = 1e-4
 """A limit is met that is exceeded by no more than so much of itself, and is active that is as near."""
@@ -36,7 +34,7 @@ class Design:
     results: dict[str, float]
     """The results there: those of the objective and of the limits."""
     objective: float
-    """The result that was made smallest or largest, or the weighted sum."""
+    """The result or number that was made smallest or largest, or the weighted sum."""
     active: list[str]
     """The bounds and limits that the optimum lies at, in words."""
     prices: dict[str, float]
@@ -81,9 +79,11 @@ def design(
         The numbers that may change, by their paths as for :func:`gradient`, with their least and largest values.
         Between positive bounds logarithms are varied.
     minimize, maximize : str or mapping of str to float
-        One of both: a result, as for :func:`gradient`, or the weights of results that are added up.
-    limits : mapping of str to (float or None, float or None), optional
-        Least and largest value of other results.
+        One of both: a result, as for :func:`gradient`, a number of ``by``, or the weights of such that are added up.
+    limits : mapping of str to (least, largest), optional
+        Least and largest value of results, or of numbers of ``by``; ``None`` where there is none. In place of a value
+        the weights of results and numbers whose sum it is: ``{"max_worn_depth": (None, {THICKNESS: 0.5})}`` lets wear
+        take half of a thickness.
     tolerance : float
         Relative change of the objective at which the optimum counts as reached.
     iterations : int
@@ -166,13 +166,15 @@ class _Question:
         limits: Mapping[str, Limit] | None,
         threads: int | None,
     ) -> None:
-        self.sign, self.weights = _objective(*objectives)
+        self.sign, self.weights = objective_of(*objectives)
         self.limits = {
-            text("limits", name): _limit(name, pair) for name, pair in mapping("limits", limits or {}).items()
+            text("limits", name): limit_of(name, pair) for name, pair in mapping("limits", limits or {}).items()
         }
-        bounds = {text("by", path): _bounds(path, pair) for path, pair in mapping("by", by).items()}
-        of = list(dict.fromkeys([*self.weights, *self.limits]))
+        bounds = {text("by", path): bounds_of(path, pair) for path, pair in mapping("by", by).items()}
+        others = [name for pair in self.limits.values() for side in pair if isinstance(side, dict) for name in side]
+        of = [name for name in dict.fromkeys([*self.weights, *self.limits, *others]) if name not in bounds]
         self.results = Results(case, of, list(bounds), threads)
+        self.names = [*self.results.of, *self.results.by]
         self.threads = threads
         self.pairs = list(bounds.values())
         self.logarithmic = [low > 0.0 for low, _ in self.pairs]
@@ -208,7 +210,7 @@ class _Question:
         )
 
     def found(self, variables: Reals) -> tuple[Reals, Reals, Reals]:
-        """Numbers, results, and derivatives of the results by the scaled variables; every place is run once."""
+        """Numbers, results and the numbers after them, derivatives by the scaled variables; every place is run once."""
         key = np.asarray(variables, dtype=float).tobytes()
         if key not in self.known:
             numbers = self.numbers(variables)
@@ -233,12 +235,17 @@ class _Question:
                 x if log else high - low
                 for x, (low, high), log in zip(numbers, self.pairs, self.logarithmic, strict=True)
             ]
-            self.known[key] = numbers, values, matrix * np.array(rates)
+            both = np.concatenate([values, numbers])
+            self.known[key] = numbers, both, np.vstack([matrix, np.eye(len(numbers))]) * np.array(rates)
         return self.known[key]
 
     def total(self, values: Reals) -> float:
         """Return the objective of results."""
-        return float(sum(weight * values[self.results.of.index(name)] for name, weight in self.weights.items()))
+        return float(self.sum(self.weights, values))
+
+    def sum(self, weights: Mapping[str, float], values: Reals) -> Any:
+        """Return the weighted sum of results and numbers, or of their derivatives."""
+        return sum(weight * values[self.names.index(name)] for name, weight in weights.items())
 
     def objective(self, variables: Reals) -> float:
         """Return what is made smallest, over its size at the start."""
@@ -253,7 +260,7 @@ class _Question:
 
     def parts(self, results: Reals) -> Reals:
         """Parts of the objective, from results or from their derivatives."""
-        return np.array([weight * results[self.results.of.index(name)] for name, weight in self.weights.items()])
+        return np.array([weight * results[self.names.index(name)] for name, weight in self.weights.items()])
 
     def unit(self) -> float:
         """Return what the objective counts in: its largest part at the start; where that is 0, what it changes by."""
@@ -265,19 +272,23 @@ class _Question:
             )
         return size
 
-    def sides(self) -> list[tuple[str, float, float]]:
+    def sides(self) -> list[tuple[str, float, Side]]:
         """Limits one by one: result, sign of what is too much, value."""
         both = ((name, ((-1.0, low), (1.0, high))) for name, (low, high) in self.limits.items())
         return [(name, sign, value) for name, pair in both for sign, value in pair if value is not None]
 
-    def unit_of(self, side: tuple[str, float, float]) -> float:
+    def value_of(self, limit: Side, values: Reals) -> float:
+        """Return the value of a limit."""
+        return float(limit) if isinstance(limit, int | float) else float(self.sum(limit, values))
+
+    def unit_of(self, side: tuple[str, float, Side]) -> float:
         """Return what the margin to a limit counts in: the limit; where that is 0, what the result is or changes by."""
         name, _, limit = side
-        if limit != 0.0:
+        if isinstance(limit, int | float) and limit != 0.0:
             return abs(limit)
         _, values, matrix = self.found(self.start)
-        row = self.results.of.index(name)
-        size = float(abs(values[row]) or np.abs(matrix[row]).max())
+        row = self.names.index(name)
+        size = abs(self.value_of(limit, values)) or float(abs(values[row]) or np.abs(matrix[row]).max())
         if size == 0.0:
             raise ValueError(f"limits: {name} is 0 at the numbers of the case, and changes with none of them: leave it")
         return size
@@ -285,16 +296,20 @@ class _Question:
     def margins(self, variables: Reals) -> Reals:
         """How much of each limit is left."""
         _, values, _ = self.found(variables)
-        return np.array(
-            [side[1] * (side[2] - values[self.results.of.index(side[0])]) / self.unit_of(side) for side in self.sides()]
-        )
+        rows = []
+        for name, sign, limit in self.sides():
+            left = self.value_of(limit, values) - values[self.names.index(name)]
+            rows.append(sign * left / self.unit_of((name, sign, limit)))
+        return np.array(rows)
 
     def slopes_of_margins(self, variables: Reals) -> Reals:
         """Return their derivatives by the scaled variables."""
         _, _, matrix = self.found(variables)
-        return np.array(
-            [-side[1] * matrix[self.results.of.index(side[0])] / self.unit_of(side) for side in self.sides()]
-        )
+        rows = []
+        for name, sign, limit in self.sides():
+            of_limit = 0.0 if isinstance(limit, int | float) else self.sum(limit, matrix)
+            rows.append(sign * (of_limit - matrix[self.names.index(name)]) / self.unit_of((name, sign, limit)))
+        return np.array(rows)
 
     def check_grid(self) -> None:
         """Refuse a grid that moves with the numbers."""
@@ -327,8 +342,8 @@ class _Question:
         exceeded = ""
         if not met:
             name, sign, limit = sides[worst]
-            value = values[self.results.of.index(name)]
-            exceeded = f"{name} = {value:.6g} {'above' if sign > 0 else 'below'} its limit {limit:g}"
+            value = values[self.names.index(name)]
+            exceeded = f"{name} = {value:.6g} {'above' if sign > 0 else 'below'} its limit {limit_in_words(limit)}"
         if not found.success or not met:
             raise DesignError(_reason(found, exceeded, self), self.evaluations)
         active, prices, slope = self.balance(variables, nnls)
@@ -343,7 +358,7 @@ class _Question:
         case = self.results.at(numbers)
         return Design(
             numbers=dict(zip(self.results.by, map(float, numbers), strict=True)),
-            results=dict(zip(self.results.of, map(float, values), strict=True)),
+            results=dict(zip(self.results.of, map(float, values[: len(self.results.of)]), strict=True)),
             objective=self.total(values),
             active=active,
             prices=prices,
@@ -357,18 +372,22 @@ class _Question:
     def balance(self, variables: Reals, nnls: Any) -> tuple[list[str], dict[str, float], float]:
         """Active bounds and limits, shadow prices, and the slope that they leave (Kuhn and Tucker's conditions)."""
         size = abs(self.objective(variables)) or 1.0
-        words, names, columns = [], [], []
+        words, names, columns, units = [], [], [], []
         rows = zip(self.results.by, variables, self.low, self.high, self.pairs, strict=True)
         for number, (path, x, low, high, pair) in enumerate(rows):
             for side, at, value, way in (("lower", low, pair[0], 1.0), ("upper", high, pair[1], -1.0)):
                 if abs(x - at) <= MET:
                     words.append(f"{path} at its {side} bound, {value:g}")
                     names.append("")
+                    units.append(1.0)
                     columns.append(way * np.eye(len(variables))[number])
+        _, values, _ = self.found(variables)
         margins, slopes = self.margins(variables), self.slopes_of_margins(variables)
         for margin, row, (name, sign, limit) in zip(margins, slopes, self.sides(), strict=True):
             if margin <= MET:
-                words.append(f"{name} at its {'upper' if sign > 0 else 'lower'} limit, {limit:g}")
+                # A price is that of a per cent of the limit here, which may have moved from the start.
+                units.append(abs(self.value_of(limit, values)) / self.unit_of((name, sign, limit)) or 1.0)
+                words.append(f"{name} at its {'upper' if sign > 0 else 'lower'} limit, {limit_in_words(limit)}")
                 names.append(name)
                 columns.append(row)
         slope = self.slope(variables) / size
@@ -376,13 +395,9 @@ class _Question:
             return [], {}, float(np.abs(slope).max())
         weights, _ = nnls(np.array(columns).T, slope)
         left = slope - np.array(columns).T @ weights
-        prices = {name: float(weight) for name, weight in zip(names, weights, strict=True) if name}
+        priced = zip(names, weights, units, strict=True)
+        prices = {name: float(weight * unit) for name, weight, unit in priced if name}
         return words, prices, float(np.abs(left).max())
-
-
-def in_words(numbers: Mapping[str, float]) -> str:
-    """Numbers with their paths."""
-    return ", ".join(f"{path} = {number:.6g}" for path, number in numbers.items())
 
 
 def _reason(found: Any, exceeded: str, question: _Question) -> str:
@@ -403,38 +418,3 @@ def _reason(found: Any, exceeded: str, question: _Question) -> str:
         "that change their state make kinks: a finer grid, a smaller tolerance of the solver, or a wider one of the "
         "design"
     )
-
-
-def _objective(minimize: Any, maximize: Any) -> tuple[float, dict[str, float]]:
-    if (minimize is None) == (maximize is None):
-        raise ValueError("minimize, maximize: expected one of both, such as minimize='max_pressure'")
-    name, given, sign = ("minimize", minimize, 1.0) if maximize is None else ("maximize", maximize, -1.0)
-    if isinstance(given, str):
-        return sign, {given: 1.0}
-    weights = {text(name, key): real(f"{name}[{key!r}]", weight) for key, weight in mapping(name, given).items()}
-    if not weights or not all(math.isfinite(weight) for weight in weights.values()):
-        raise ValueError(f"{name}: expected a result, or results with finite weights, such as {{'max_pressure': 1.0}}")
-    return sign, weights
-
-
-def _pair(name: str, pair: Any) -> tuple[Any, Any]:
-    try:
-        low, high = pair
-    except (TypeError, ValueError):
-        raise ValueError(f"{name}: expected a pair, the least and the largest value") from None
-    return low, high
-
-
-def _bounds(path: str, pair: Any) -> tuple[float, float]:
-    low, high = (real(f"by[{path!r}]", side) for side in _pair(f"by[{path!r}]", pair))
-    if not (math.isfinite(low) and math.isfinite(high) and low < high):
-        raise ValueError(f"by[{path!r}] = ({low:g}, {high:g}): must be finite and rise")
-    return low, high
-
-
-def _limit(name: str, pair: Any) -> Limit:
-    low, high = (None if side is None else real(f"limits[{name!r}]", side) for side in _pair(f"limits[{name!r}]", pair))
-    sides = [side for side in (low, high) if side is not None]
-    if not sides or not all(math.isfinite(side) for side in sides) or sides != sorted(set(sides)):
-        raise ValueError(f"limits[{name!r}]: expected the least and the largest value, None where there is none")
-    return low, high

@@ -54,7 +54,7 @@ def gradient(
         Results: a column of the last increment (``"max_pressure"``), of another (``"increments[7].shift_x"``), the
         energy of a cycle (``"cycles[0].dissipated_energy"``), the largest stress below the surface
         (``"stress.von_mises"``, ``"increments[7].stress.interface_shear"``), the largest fatigue parameter of a cycle
-        (``"fatigue.crossland"``, ``"cycles[0].fatigue.dang_van"``).
+        (``"fatigue.crossland"``, ``"cycles[0].fatigue.dang_van"``, ``"fatigue.ruiz_f1"``).
     by : str or iterable of str
         Numbers of the case by their paths: ``"friction.coefficient"``, ``"friction.max_shear"``,
         ``"lower.coatings[0].young"``, ``"lower.substrate.poisson"``, ``"lower.coatings[0].thickness"``,
@@ -78,7 +78,7 @@ def gradient(
         When the case is refused.
     ValueError
         When a result or a number is not one of the case, or the case is of a kind that is not covered: with wear
-        by more than one coefficient or in jumps over cycles, evolving friction, bulk stress, surfaces that move, or
+        by more than one coefficient, evolving friction, bulk stress, surfaces that move, or
         increments in parts.
     RunError
         When the run fails, or the linear equations of an increment are not solved.
@@ -182,8 +182,13 @@ def vjp(
     return dict(_core.pulled_back(_case.read(case), pairs, fields, texts("by", by), threads))
 
 
+def is_below(name: str) -> bool:
+    """Whether a result with derivatives is a stress below the surface, or made of such, and no column of a history."""
+    return re.search(r"(^|\.)(stress|fatigue)\.", name) is not None
+
+
 def value_of(increments: Mapping[str, Any], cycles: Mapping[str, Any], name: str) -> float:
-    """Return a result of a history by its name, which is one of results with derivatives."""
+    """Return a result of a history by its name, which is one of the columns with derivatives."""
     found = re.fullmatch(r"(increments|cycles)\[(\d+)\]\.(\w+)", name)
     if found is None:
         return float(increments[name][-1])

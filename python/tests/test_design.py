@@ -1,7 +1,9 @@
 """Optima of a case against closed forms, and against sweeps."""
 
 import math
+import re
 import sys
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -138,6 +140,45 @@ def test_the_optimum_of_a_coating_lies_where_a_sweep_has_it(limit: float, active
         assert abs(math.log(number / other)) <= math.log(row[1] / row[0]), (found.numbers, best)
     assert len(found.active) == len(active)
     assert all(words.startswith(name) for words, name in zip(found.active, active, strict=True)), found.active
+
+
+GUIDE = Path(__file__).parents[2] / "docs" / "do" / "design-a-coating.md"
+
+
+def test_a_limit_moves_with_a_number_and_a_number_is_an_objective() -> None:
+    """The thinnest film and the stiffest one of the guide, and its table, whose films are run without derivatives."""
+    pytest.importorskip("xarray")
+    page = GUIDE.read_text(encoding="utf-8").partition("## A film that wears")[2].partition("## What can")[0]
+    told: dict[str, Any] = {"fretting": fretting, "print": lambda *_: None}
+    snippets = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    exec("\n".join([*snippets[:2], snippets[2].partition("\nfor ")[0]]), told)
+    thin, stiff = told["thin"], told["stiff"]
+    # The numbers of the page, to its digits; those of a vertex of two limits are as certain as these are met.
+    assert thin.numbers == pytest.approx({THICKNESS: 1.92e-6}, rel=3e-3)
+    assert thin.active == [f"max_worn_depth at its upper limit, 0.1 {THICKNESS}"]
+    # A thickness that is ten times the worn depth goes with it, but for what the film's thickness does to the wear.
+    assert thin.prices["max_worn_depth"] == pytest.approx(1.0, abs=0.01)
+    assert stiff.numbers == pytest.approx({THICKNESS: 1.92e-6, MODULUS: 259e9}, rel=3e-3)
+    assert stiff.objective == stiff.numbers[MODULUS] and len(stiff.active) == 2
+    assert stiff.results["max_worn_depth"] == pytest.approx(0.1 * stiff.numbers[THICKNESS], rel=1e-4)
+    assert list(stiff.prices.values()) == pytest.approx([1.23, 3.24], rel=0.01)
+    assert set(stiff.history.cycles["stands_for"]) == {2000}
+    table = re.findall(r"\| ([\d.]+) um \|" + 3 * r"\D*(\d+) MPa\D*\|" + r"\D*([\d.]+) %", page)
+    assert len(table) == 3
+    for depth, *shears, loss in table:
+        for young, shear in zip((230e9, 259e9, 290e9), shears, strict=True):
+            worn, sheared = told["worn_and_sheared"](float(depth) * 1e-6, young)
+            # Half of the last digit, and what 1.92 um and 259 GPa leave out of the optimum.
+            assert sheared == pytest.approx(float(shear) * 1e6, abs=0.55e6)
+            assert worn == pytest.approx(float(loss) / 100, abs=0.00055)
+            if young >= 259e9 and depth != "1.92":
+                assert worn > 0.1 or sheared > 215e6
+
+
+def test_what_stands_for_a_limit_is_checked() -> None:
+    for side in ({}, {YOUNG: math.inf}, "high"):
+        with pytest.raises((ValueError, TypeError), match="limits"):
+            fretting.design(ball(90e9), by={YOUNG: (50e9, 400e9)}, minimize=YOUNG, limits={"approach": (None, side)})
 
 
 def test_what_cannot_be_reached_is_an_error_with_all_that_was_run() -> None:

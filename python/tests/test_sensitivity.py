@@ -56,6 +56,29 @@ def test_derivatives_are_those_of_the_history() -> None:
         assert total == pytest.approx(power * found[name]["value"], abs=1e-6 * abs(found[name]["value"])), name
 
 
+def test_ruiz_parameters_are_those_of_the_history() -> None:
+    """Both are the largest of the map that the fields of a run have."""
+    pytest.importorskip("xarray")
+    found = fretting.gradient(CASE, of=["fatigue.ruiz_f1", "fatigue.ruiz_f2"], by=[*MODULI, *FORCES])
+    output = {"fields": ["pressure", "shear", "slip"], "every": 1}
+    fatigue = fretting.run({**CASE, "output": output}).fatigue([0.0])
+    values = dict(zip([*MODULI, *FORCES], [400e9, 210e9, 12.0, 1.5], strict=True))
+    for name, power in {"ruiz_f1": 1, "ruiz_f2": 2}.items():
+        gradient = found[f"fatigue.{name}"]
+        # The stress of one depth alone or of all: rounding.
+        assert gradient["value"] == pytest.approx(float(fatigue[name].max()), rel=1e-12)
+        # Moduli and forces are one dimension: slip does not change with it, shear and tension grow.
+        total = sum(gradient[path] * value for path, value in values.items())
+        assert total == pytest.approx(power * gradient["value"], rel=1e-6), name
+
+
+def test_a_function_of_numbers_has_stresses() -> None:
+    """Without derivatives they are those that come with them."""
+    results = Results(CASE, ["increments[3].stress.tension", "fatigue.ruiz_f1", "approach"], FORCES, None)
+    values, _ = results.differentiated(np.array([12.0, 1.5]))
+    assert (results.values(np.array([12.0, 1.5])) == values).all()
+
+
 def test_cells_about_to_change_their_state_are_told() -> None:
     # A force that turns back by a ten-millionth: the cells that slid stick, as near to their bound; before it none is.
     slid = {"tangential_force": [1.5, 0.0], "increments": 4}

@@ -7,6 +7,7 @@ use super::contact::Drive;
 use super::energies::{Energies, Inputs, Outputs};
 use super::rule::{PathChange, Rule, combination, product};
 use super::scene::{MOTION_OF, Scene};
+use super::slip::Slip;
 use super::solved::{Solved, at, deep_by, moved_by};
 use super::wear::Wear;
 use crate::fields::{Slopes, add_scaled};
@@ -27,8 +28,11 @@ pub(super) struct After<'a> {
     forces: [f64; 6],
     entered: Vec<Entered>,
     energies: Energies<'a>,
+    slip: Option<Slip>,
     wear: Option<Wear>,
     goes_on: bool,
+    /// Cycles of the block that ends with it; none where nothing ends.
+    block: usize,
 }
 
 impl<'a> After<'a> {
@@ -51,7 +55,8 @@ impl<'a> After<'a> {
         let forces = scene.resultants([pressure, x, y]);
         let energies = Energies::new(scene, [now, before], (law, rule));
         let wear = scene.plan.case.wear.as_ref().map(|of| Wear::new(of, scene, [now, before], (law, rule)));
-        Self { scene, forces, entered, energies, wear, goes_on }
+        let slip = scene.tells_slip.then(|| Slip::new(scene, [now, before], (law, rule)));
+        Self { scene, forces, entered, energies, slip, wear, goes_on, block: now.block }
     }
 
     /// Completes the changes of `next`, of which the loads are known.
@@ -82,10 +87,17 @@ impl<'a> After<'a> {
         }
         next.energies =
             self.energies.forward(&Inputs { before, next, solution, paths, friction: drive.friction });
+        if let Some(slip) = &self.slip {
+            let inputs = Inputs { before, next, solution, paths, friction: drive.friction };
+            next.slip = slip.forward(&inputs);
+        }
         if let Some(wear) = &self.wear {
             let inputs = Inputs { before, next, solution, paths, friction: drive.friction };
-            let collected = wear.forward(&inputs, drive.wear);
-            (next.worn, next.collected) = wear.taken_off(before, collected);
+            next.collected = wear.forward(&inputs, drive.wear);
+            next.worn.clone_from(&before.worn);
+        }
+        if self.block > 0 {
+            next.end_block(self.block);
         }
         let forces = scene.resultants([pressure, x, y]);
         next.reached = scene.reached(forces, &solution.motions, scene.springs());
@@ -137,13 +149,22 @@ impl<'a> After<'a> {
             displacements: super::fields::zeros(cells),
             motions: [0.0; MOTIONS],
         };
+        if self.block > 0 {
+            next.end_block_transposed(self.block);
+        }
         if let Some(wear) = &self.wear {
-            let collected = wear.taken_off_transposed(next, before);
+            add_scaled(&mut before.worn, 1.0, &next.worn);
+            let collected = std::mem::take(&mut next.collected);
             let Drive { friction, wear: coefficient, .. } = drive;
             let mut to = Outputs { before, next, solution: &mut solution, paths, friction };
             wear.transposed(&collected, &mut to, coefficient);
         }
-        if next.energies != [0.0; 4] {
+        if let Some(slip) = &self.slip {
+            let of = std::mem::take(&mut next.slip);
+            let Drive { friction, .. } = drive;
+            slip.transposed(&of, &mut Outputs { before, next, solution: &mut solution, paths, friction });
+        }
+        if next.energies != [0.0; 5] {
             let energies = next.energies;
             let Drive { friction, .. } = drive;
             let mut to = Outputs { before, next, solution: &mut solution, paths, friction };

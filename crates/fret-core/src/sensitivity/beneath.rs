@@ -9,7 +9,7 @@ use crate::machine::memory;
 use crate::model::{Body, HalfSpace, MirroredState, Periodicity, SurfaceGrid};
 use crate::plan::{Plan, memory_of_stress};
 use crate::run::RunError;
-use crate::subsurface::fatigue::{self, LayerConstants};
+use crate::subsurface::fatigue::{self, LayerConstants, Ruiz};
 use crate::subsurface::largest::look;
 use crate::subsurface::{
     AUTOMATIC, DepthPoint, EvenStress, Largest, LoadedSurface, Measure, Severity, Tractions,
@@ -24,6 +24,8 @@ pub(super) enum Number {
     Measure { measure: Measure, increment: usize },
     /// The largest value of a fatigue parameter over a cycle, whose increments are given.
     Fatigue { parameter: fatigue::Parameter, increments: RangeInclusive<usize> },
+    /// The largest of Ruiz's parameters at the surface over a cycle, the second with the tension.
+    Ruiz { with_tension: bool, increments: RangeInclusive<usize> },
 }
 
 /// The body whose stress is asked for, as for `fret stress`: what the case says, or else the lower one that is not rigid.
@@ -73,7 +75,7 @@ impl Number {
     pub fn increments(&self) -> RangeInclusive<usize> {
         match self {
             Self::Measure { increment, .. } => *increment..=*increment,
-            Self::Fatigue { increments, .. } => increments.clone(),
+            Self::Fatigue { increments, .. } | Self::Ruiz { increments, .. } => increments.clone(),
         }
     }
 }
@@ -112,7 +114,7 @@ impl<'a> Beneath<'a> {
                 increment,
                 pressure: whole.pressure.clone(),
                 shear: (!plan.case.is_frictionless()).then_some(shear),
-                slip: None,
+                slip: step.slip.is_some().then(|| whole.slip.clone()),
                 even: even.clone(),
             }
         };
@@ -156,11 +158,15 @@ impl<'a> Beneath<'a> {
         let mut of_cycles: Vec<Option<Severity<'_>>> = numbers
             .iter()
             .map(|(_, number)| {
-                let Number::Fatigue { parameter, increments } = number else { return None };
-                let cycle = (&self.surfaces[..], self.surfaces_of(increments));
+                let parameters = match number {
+                    Number::Measure { .. } => return None,
+                    Number::Fatigue { parameter, .. } => &[*parameter][..],
+                    Number::Ruiz { .. } => &[],
+                };
+                let cycle = (&self.surfaces[..], self.surfaces_of(&number.increments()));
                 let row = Some(self.plan.grid.cells()[1] / 2);
                 let severity = Severity::new(self.half_space, &self.constants, &self.points, cycle, row);
-                Some(severity.only(&[*parameter]))
+                Some(severity.only(parameters))
             })
             .collect();
         let (grid, periodic) = self.grid();
@@ -192,6 +198,15 @@ impl<'a> Beneath<'a> {
                     .reduce(|most, next| if next.value > most.value { next } else { most })?;
                 let at_rim = most.value != most.of_cells;
                 Some(Found { value: most.value, point: most.point, cell: most.cell, at_rim })
+            }
+            Number::Ruiz { with_tension, .. } => {
+                let of = |ruiz: &Ruiz| if *with_tension { ruiz.f2 } else { ruiz.f1 };
+                let ruiz = severity?.judged().ruiz?;
+                let (value, cell) = ruiz.indexed_iter().fold((0.0, [0, 0]), |most, ((i, j), ruiz)| {
+                    if of(ruiz) > most.0 { (of(ruiz), [i, j]) } else { most }
+                });
+                let point = *self.points.iter().find(|point| point.depth == 0.0)?;
+                Some(Found { value, point, cell, at_rim: false })
             }
         };
         Ok(numbers.iter().zip(of_cycles).map(of).collect())

@@ -25,10 +25,12 @@ pub(super) struct Change {
     /// Depth worn off, and what has been collected to be worn off; nothing where nothing wears.
     pub worn: Vec<f64>,
     pub collected: Vec<f64>,
+    /// Slip of the increment; nothing where nobody asks for it.
+    pub slip: Tangential,
     /// Rotations times the length.
     pub motions: [f64; MOTIONS],
-    /// Dissipated, stored, external and unresolved energy of the whole contact.
-    pub energies: [f64; 4],
+    /// Dissipated, stored, external and unresolved energy of the whole contact, and what has been dissipated since the cycle began.
+    pub energies: [f64; 5],
     pub reached: Reached,
     /// Load at the start of the stage and at the end of the increment, of the whole contact.
     pub start: [f64; FREEDOMS],
@@ -52,8 +54,9 @@ impl Change {
             drift: tangential(),
             worn: Vec::new(),
             collected: Vec::new(),
+            slip: [Vec::new(), Vec::new()],
             motions: [0.0; MOTIONS],
-            energies: [0.0; 4],
+            energies: [0.0; 5],
             reached: Reached::default(),
             start: [0.0; FREEDOMS],
             held: [0.0; FREEDOMS],
@@ -65,10 +68,15 @@ impl Change {
 
     /// All its numbers, part by part.
     pub fn parts(&self) -> impl Iterator<Item = &[f64]> {
-        let Self { shear, slid, drift, reached, .. } = self;
+        let Self { shear, slid, drift, slip, reached, .. } = self;
         let worn = [&self.worn, &self.collected];
-        let fields =
-            [&self.pressure, &self.gap].into_iter().chain(shear).chain(slid).chain(drift).chain(worn);
+        let fields = [&self.pressure, &self.gap]
+            .into_iter()
+            .chain(shear)
+            .chain(slid)
+            .chain(drift)
+            .chain(worn)
+            .chain(slip);
         let loads = [&self.start, &self.held, &self.from, &self.load].into_iter().map(|load| &load[..]);
         let small =
             [&self.motions[..], &self.energies, reached.as_flattened(), std::slice::from_ref(&self.ratio)];
@@ -80,6 +88,29 @@ impl Change {
     pub fn of_wear(self, wears: bool) -> Self {
         let cells = if wears { self.gap.len() } else { 0 };
         Self { worn: vec![0.0; cells], collected: vec![0.0; cells], ..self }
+    }
+
+    /// The same of which slip is asked for.
+    #[must_use]
+    pub fn of_slip(self, asked: bool) -> Self {
+        let cells = if asked { self.gap.len() } else { 0 };
+        Self { slip: [vec![0.0; cells], vec![0.0; cells]], ..self }
+    }
+
+    /// Ends a block of cycles, of which the one that was computed stands for all: each takes off what that has collected, and dissipates its energy.
+    pub fn end_block(&mut self, cycles: usize) {
+        let cycles = cycles as f64;
+        self.worn.iter_mut().zip(&self.collected).for_each(|(worn, more)| *worn += cycles * more);
+        self.collected.fill(0.0);
+        self.energies[0] += (cycles - 1.0) * self.energies[4];
+        self.energies[4] = 0.0;
+    }
+
+    /// Backwards.
+    pub fn end_block_transposed(&mut self, cycles: usize) {
+        let cycles = cycles as f64;
+        self.collected.iter_mut().zip(&self.worn).for_each(|(more, worn)| *more = cycles * worn);
+        self.energies[4] = (cycles - 1.0) * self.energies[0];
     }
 
     /// Whether all are zero.

@@ -137,8 +137,8 @@ impl<'a> Energies<'a> {
         std::array::from_fn(|motion| self.now.motions[motion] - self.before.motions[motion])
     }
 
-    /// Changes of dissipated, stored, external and unresolved energy.
-    pub fn forward(&self, of: &Inputs<'_>) -> [f64; 4] {
+    /// Changes of dissipated, stored, external and unresolved energy, and of what has been dissipated since the cycle began.
+    pub fn forward(&self, of: &Inputs<'_>) -> [f64; 5] {
         let Inputs { before, next, solution, paths, friction } = of;
         let bound = |bound: &Bound, pressure: f64| {
             bound.by[0] * pressure + bound.by[1] * friction[0] + bound.by[2] * friction[1]
@@ -191,18 +191,19 @@ impl<'a> Energies<'a> {
             stored * 0.5 * area,
             before.energies[2] + work * area,
             before.energies[3] + (slipped - dissipated) * area,
+            before.energies[4] + dissipated * area,
         ]
     }
 
     /// Backwards, from those of the energies.
-    pub fn transposed(&self, of: [f64; 4], to: &mut Outputs<'_>) {
+    pub fn transposed(&self, of: [f64; 5], to: &mut Outputs<'_>) {
         let Outputs { before, next, solution, paths, friction } = to;
         let area = self.scene.area();
-        for energy in [0, 2, 3] {
+        for energy in [0, 2, 3, 4] {
             before.energies[energy] += of[energy];
         }
-        let [dissipated, stored, work, unresolved] = of.map(|energy| energy * area);
-        let dissipated = dissipated - unresolved;
+        let [dissipated, stored, work, unresolved, of_cycle] = of.map(|energy| energy * area);
+        let dissipated = dissipated + of_cycle - unresolved;
         let stored = 0.5 * stored;
         let mut by_bound = |bound: &Bound, amount: f64, pressure: &mut f64| {
             *pressure += bound.by[0] * amount;

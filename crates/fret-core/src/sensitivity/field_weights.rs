@@ -11,12 +11,15 @@ use crate::plan::Plan;
 /// Fields whose sums have derivatives.
 pub const FIELDS: [&str; 3] = ["pressure", "shear_x", "shear_y"];
 
+/// The place of slip along x, beside which that along y stands.
+pub(super) const SLIP: usize = FIELDS.len();
+
 /// A field of an increment, and the weight of each cell.
 #[derive(Debug, Clone)]
 pub(super) struct FieldWeights {
     /// `None`: the last one.
     increment: Option<usize>,
-    /// Its place in [`FIELDS`].
+    /// Its place in [`FIELDS`]; beyond them slip along x and y.
     field: usize,
     /// Over the cells in front of the mirrors, each with what lies behind them.
     weights: Array2<f64>,
@@ -57,9 +60,10 @@ impl FieldWeights {
         Ok(Self { increment, ..Self::of(field, weights, plan) })
     }
 
-    /// Those of a field by its place in [`FIELDS`], of all cells of the grid of a plan, in the last increment.
+    /// Those of a field by its place in [`FIELDS`], or beyond them of slip along x and y, of all cells of the grid of a plan, in the last increment.
     pub fn of(field: usize, weights: &Array2<f64>, plan: &Plan) -> Self {
-        let odd = field.checked_sub(1).map_or([false; 2], |component| plan.symmetry.shear_is_odd(component));
+        let odd =
+            field.checked_sub(1).map_or([false; 2], |component| plan.symmetry.shear_is_odd(component % 2));
         Self { increment: None, field, weights: folded(weights, plan.symmetry, odd) }
     }
 

@@ -155,8 +155,12 @@ pub(super) fn forward(
                     });
                 }
                 (course.before.start, course.before.held) = (after.start, after.held);
+                course.before.slip.iter_mut().for_each(|slip| slip.fill(0.0));
+                if step.block > 0 {
+                    course.before.end_block(step.block);
+                }
             }
-            past[0].zone = step.in_region(scene.region).1;
+            past[0].stood(step, last, scene.region);
         }
         let changes: Vec<&Change> = courses.iter().map(|course| &course.before).collect();
         if visit((step, &past[0]), &changes).is_break() {

@@ -7,15 +7,16 @@ use std::sync::Arc;
 use ndarray::Array2;
 
 use super::backward::{Found, Target, backward};
-use super::below::{Below, below};
+use super::below::below;
 use super::error::SensitivityError;
 use super::events::{NearEvents, SideOfEvents};
 use super::field_weights::FieldWeights;
 use super::forward::forward;
+use super::largest::Below;
 use super::objective::{Column, Objective, Row, value_of};
 use super::parameter::Parameter;
 use super::past::{Past, bytes_per_cell, length_of_segments};
-use super::refusals::{check, check_history, check_request, check_wear};
+use super::refusals::{check, check_history, check_jumps, check_request};
 use super::scene::Scene;
 use super::snapshot::Snapshot;
 use super::work::Work;
@@ -165,12 +166,15 @@ fn derivatives(
 ) -> Result<Sensitivities, SensitivityError> {
     let names = sums.iter().flat_map(|sum| &sum.parts).map(|(name, _)| name.as_str());
     let parameters = asked(plan, (names, sums.iter().any(|sum| !sum.fields.is_empty())), by)?;
-    let mut run = Snapshots { steps: Vec::new(), cycles: Vec::new(), observer };
+    let objectives = sums.iter().flat_map(|sum| &sum.parts).map(|(name, _)| Objective::new(name));
+    let objectives = objectives.collect::<Result<Vec<_>, _>>()?;
+    let with_slip = objectives.iter().any(|objective| matches!(objective, Objective::Ruiz { .. }));
+    let mut run = Snapshots { steps: Vec::new(), cycles: Vec::new(), with_slip, observer };
     let pair = Arc::new(PairCompliance::of(plan));
     Simulation::new(plan).with_compliance(Some(Arc::clone(&pair))).run(&mut run)?;
-    let Snapshots { mut steps, cycles, observer } = run;
+    let Snapshots { mut steps, cycles, observer, .. } = run;
     end_blocks(&mut steps, &cycles);
-    check_wear(plan, &cycles)?;
+    check_jumps(&cycles, &objectives)?;
     if let Some(step) = steps.iter().find(|step| step.record.parts > 1) {
         return Err(SensitivityError::Parts { increment: step.record.increment, parts: step.record.parts });
     }
@@ -224,12 +228,13 @@ fn derivatives(
     Ok(Sensitivities { parameters, gradients, near_events, direction, work })
 }
 
-/// Tells the increments with which a cycle, or a stage without cycles, ends.
+/// Tells the increments with which a cycle, or a stage without cycles, ends, and for how many cycles it stands.
 pub(super) fn end_blocks(steps: &mut [Snapshot], cycles: &[CycleRecord]) {
     for number in 0..steps.len() {
         let stage = steps[number].record.stage;
         let ends_stage = steps.get(number + 1).is_none_or(|next| next.record.stage != stage);
-        steps[number].ends_block = ends_stage || cycles.iter().any(|cycle| cycle.last_increment == number);
+        let cycle = cycles.iter().find(|cycle| cycle.last_increment == number);
+        steps[number].block = cycle.map_or(usize::from(ends_stage), |cycle| cycle.stands_for);
     }
 }
 
@@ -302,6 +307,8 @@ impl Sum<'_> {
 pub(super) struct Snapshots<'a> {
     pub steps: Vec<Snapshot>,
     pub cycles: Vec<CycleRecord>,
+    /// Whether slip is asked for.
+    pub with_slip: bool,
     pub observer: &'a mut dyn Observer,
 }
 
@@ -316,7 +323,7 @@ impl Observer for Snapshots<'_> {
         state: MirroredState<'_>,
         kept: Option<&KeptFields>,
     ) -> ControlFlow<()> {
-        let snapshot = Snapshot::of(record, state.part, self.steps.last());
+        let snapshot = Snapshot::of(record, (state.part, self.with_slip), self.steps.last());
         self.steps.push(snapshot);
         self.observer.solved(record, state, kept)
     }

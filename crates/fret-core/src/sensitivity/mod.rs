@@ -24,6 +24,7 @@ mod forward;
 mod gradient;
 mod increment;
 mod krylov;
+mod largest;
 mod linearised;
 mod loads;
 mod objective;
@@ -32,8 +33,10 @@ mod parameter;
 mod past;
 mod refusals;
 mod replay;
+mod ruiz;
 mod rule;
 mod scene;
+mod slip;
 mod snapshot;
 mod solved;
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::beneath::{Number, constants_for_fatigue, side_of};
 use super::change::Change;
 use super::error::SensitivityError;
-use super::field_weights::RegionWeights;
+use super::field_weights::{RegionWeights, SLIP};
 use super::solved::Solved;
 use crate::fields::{add_scaled, dot, length, sum};
 use crate::history::{CycleRecord, STEP_COLUMNS, StepRecord, Value};
@@ -41,6 +41,9 @@ pub const COLUMNS: [&str; 24] = [
     "max_worn_depth",
 ];
 
+/// Ruiz's parameters.
+const RUIZ: [&str; 2] = ["ruiz_f1", "ruiz_f2"];
+
 /// Columns that have none, and why.
 const AREAS: [&str; 2] = ["contact_area", "stick_area"];
 const OF_AREAS: &str = "an area is found between the cells, to a twentieth of one along its edge: on one grid its derivative scatters by tenths and \
@@ -57,6 +60,8 @@ pub(super) enum Objective {
     Stress { increment: Option<usize>, measure: Measure },
     /// The largest value of a fatigue parameter below the surface, over a cycle; `None`: over the last one.
     Fatigue { cycle: Option<usize>, parameter: Parameter },
+    /// The largest of Ruiz's parameters at the surface over a cycle, the second with the tension; `None`: over the last one.
+    Ruiz { cycle: Option<usize>, with_tension: bool },
 }
 
 impl Objective {
@@ -81,9 +86,16 @@ impl Objective {
         };
         let fatigue = |cycle: Option<usize>, of: &str| {
             let of = of.strip_prefix("fatigue.")?;
+            if let Some(place) = RUIZ.into_iter().position(|known| known == of) {
+                return Some(Ok(Self::Ruiz { cycle, with_tension: place == 1 }));
+            }
             Some(match Parameter::ALL.into_iter().find(|known| known.name() == of) {
                 Some(parameter) => Ok(Self::Fatigue { cycle, parameter }),
-                None => Err(refused(none_of(Parameter::ALL.map(Parameter::name)))),
+                None => Err(refused(format!(
+                    "{}, {}",
+                    none_of(Parameter::ALL.map(Parameter::name)),
+                    RUIZ.join(", ")
+                ))),
             })
         };
         let Some((list, rest)) = name.split_once('[') else {
@@ -125,9 +137,11 @@ impl Objective {
                 let of = cycles.get(*cycle);
                 let of =
                     of.ok_or_else(|| refused(format!("the history has {} cycles, from 0", cycles.len())))?;
-                Ok(vec![(Some(of.last_increment), 1.0), (of.first_increment.checked_sub(1), -1.0)])
+                // It is dissipated as often as there are cycles that it stands for.
+                let each = 1.0 / of.stands_for as f64;
+                Ok(vec![(Some(of.last_increment), each), (of.first_increment.checked_sub(1), -each)])
             }
-            Self::Stress { .. } | Self::Fatigue { .. } => Ok(Vec::new()),
+            Self::Stress { .. } | Self::Fatigue { .. } | Self::Ruiz { .. } => Ok(Vec::new()),
         }
     }
 
@@ -144,20 +158,26 @@ impl Objective {
                 increment if increment < steps => Ok(Some(Number::Measure { measure, increment })),
                 _ => Err(refused(format!("the history has {steps} increments, from 0"))),
             },
-            Self::Fatigue { cycle, parameter } => {
+            Self::Fatigue { cycle, .. } | Self::Ruiz { cycle, .. } => {
                 let of = cycle.map_or(cycles.last(), |cycle| cycles.get(cycle));
                 let of =
                     of.ok_or_else(|| refused(format!("the history has {} cycles, from 0", cycles.len())))?;
                 // With the state that the cycle starts from, where there is one.
                 let increments = of.first_increment.saturating_sub(1)..=of.last_increment;
-                Ok(Some(Number::Fatigue { parameter, increments }))
+                Ok(Some(match *self {
+                    Self::Fatigue { parameter, .. } => Number::Fatigue { parameter, increments },
+                    _ => Number::Ruiz {
+                        with_tension: matches!(self, Self::Ruiz { with_tension: true, .. }),
+                        increments,
+                    },
+                }))
             }
         }
     }
 
     /// Whether it is a number of the stress below the surface.
     pub fn is_below(&self) -> bool {
-        matches!(self, Self::Stress { .. } | Self::Fatigue { .. })
+        matches!(self, Self::Stress { .. } | Self::Fatigue { .. } | Self::Ruiz { .. })
     }
 
     /// Why the bodies of a plan have no such number of the stress below the surface, if they have none.
@@ -181,6 +201,10 @@ impl Objective {
                     format!("the {name} body lacks the constants for it, yield strength or fatigue limits")
                 })
             }
+            Self::Ruiz { .. } => plan
+                .case
+                .is_frictionless()
+                .then(|| "without friction there is neither shear nor slip".to_owned()),
             Self::Increment { .. } | Self::CycleEnergy { .. } => None,
         }
     }
@@ -192,6 +216,7 @@ impl Objective {
             Self::CycleEnergy { .. } => "dissipated_energy",
             Self::Stress { measure, .. } => measure.name(),
             Self::Fatigue { parameter, .. } => parameter.name(),
+            Self::Ruiz { with_tension, .. } => RUIZ[usize::from(*with_tension)],
         }
     }
 }
@@ -238,7 +263,7 @@ pub(super) enum Row<'a> {
     Pressure(usize),
     /// The shear of a cell, along a direction.
     Shear(usize, [f64; 2]),
-    /// Pressure (0) or shear along x or y (1, 2) of all cells, each by a weight.
+    /// Pressure (0), shear along x or y (1, 2) or slip of the increment (3, 4) of all cells, each by a weight.
     Field(usize, &'a [f64]),
     /// The friction coefficient in force.
     Friction,
@@ -305,6 +330,7 @@ impl<'a> Row<'a> {
             Self::Pressure(cell) => change.pressure[cell],
             Self::Shear(cell, along) => along[0] * change.shear[0][cell] + along[1] * change.shear[1][cell],
             Self::Field(0, weights) => dot(weights, &change.pressure),
+            Self::Field(field, weights) if field >= SLIP => dot(weights, &change.slip[field - SLIP]),
             Self::Field(component, weights) => dot(weights, &change.shear[component - 1]),
             Self::Friction => friction,
             Self::Worn(cell) => change.worn[cell],
@@ -324,6 +350,9 @@ impl<'a> Row<'a> {
                 to.shear[1][cell] += weight * along[1];
             }
             Self::Field(0, weights) => add_scaled(&mut to.pressure, weight, weights),
+            Self::Field(field, weights) if field >= SLIP => {
+                add_scaled(&mut to.slip[field - SLIP], weight, weights);
+            }
             Self::Field(component, weights) => add_scaled(&mut to.shear[component - 1], weight, weights),
             Self::Friction => *friction += weight,
             Self::Worn(cell) => to.worn[cell] += weight,

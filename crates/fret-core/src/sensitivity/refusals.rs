@@ -57,12 +57,13 @@ fn wears_otherwise(case: &Case) -> bool {
     })
 }
 
-/// Whether the cycles of a history that wears stand for themselves alone.
-pub(super) fn check_wear(plan: &Plan, cycles: &[CycleRecord]) -> Result<(), SensitivityError> {
+/// Whether results of a history have derivatives whose cycles may stand for more than themselves.
+pub(super) fn check_jumps(cycles: &[CycleRecord], objectives: &[Objective]) -> Result<(), SensitivityError> {
     let jumps = cycles.iter().any(|cycle| cycle.stands_for > 1);
-    if plan.case.wear.is_some() && jumps {
-        let (key, advice) = ("cycle jumps".to_owned(), "every = 1 in [wear]");
-        return Err(SensitivityError::NotCovered { key, advice });
+    let name = "external_work";
+    if jumps && objectives.iter().any(|objective| objective.column() == name) {
+        let reason = "with cycle jumps no derivative is taken of it: take the dissipated energy, or every = 1 in [wear]";
+        return Err(SensitivityError::Objective { name: name.to_owned(), reason: reason.to_owned() });
     }
     Ok(())
 }

@@ -74,13 +74,12 @@ fn solved(
     if let Some(depth) = last.and_then(|last| last.worn.as_ref()) {
         undeformed.iter_mut().zip(region.gather(depth)).for_each(|(gap, worn)| *gap += worn);
     }
-    let worn = snapshot.worn.as_ref().map_or_else(Vec::new, |depth| region.gather(depth));
     let mut solved = Solved {
         gap: undeformed.clone(),
         undeformed,
-        worn,
+        worn: snapshot.worn_in(region),
         area: scene.area(),
-        ends_block: snapshot.ends_block,
+        block: snapshot.block,
         opens: snapshot.has_worn(last),
         zone,
         motions,

@@ -39,6 +39,8 @@ pub(super) struct Scene<'a> {
     pub undeformed: Array2<f64>,
     /// Springs of the part in front of the mirrors.
     pub rig: Rig,
+    /// Whether slip is asked for.
+    pub tells_slip: bool,
 }
 
 impl<'a> Scene<'a> {
@@ -67,6 +69,7 @@ impl<'a> Scene<'a> {
             length,
             undeformed: field(region, &undeformed),
             rig: plan.case.springs().of_part(symmetry.copies()),
+            tells_slip: snapshots.iter().any(|snapshot| snapshot.slip.is_some()),
         }
     }
 
@@ -77,7 +80,7 @@ impl<'a> Scene<'a> {
 
     /// No change.
     pub fn no_change(&self) -> Change {
-        Change::none(self.region.len()).of_wear(self.plan.case.wear.is_some())
+        Change::none(self.region.len()).of_wear(self.plan.case.wear.is_some()).of_slip(self.tells_slip)
     }
 
     /// How many cells of the whole contact a cell stands for, times the area of one [length^2].

@@ -23,15 +23,17 @@ pub(super) struct Snapshot {
     shift: [f64; 2],
     twist: f64,
     tilt: [f64; 2],
+    /// Accumulated slip of its cells along x and y [length], where it is asked for.
+    pub slip: Option<[Vec<f64>; 2]>,
     /// Depth worn off both bodies together, after what happens to the surfaces where a cycle or a stage ends [length].
     pub worn: Option<Arc<Array2<f64>>>,
-    /// Whether a cycle or a stage without cycles ends with it, whose wear is taken off then.
-    pub ends_block: bool,
+    /// Cycles of the block that ends with it, whose wear is taken off then; of a stage without cycles one, and none where nothing ends.
+    pub block: usize,
 }
 
 impl Snapshot {
-    /// That of a state; `last`: the increment before.
-    pub fn of(record: &StepRecord, state: &ContactState, last: Option<&Self>) -> Self {
+    /// That of a state, with its slip or without; `last`: the increment before.
+    pub fn of(record: &StepRecord, (state, with_slip): (&ContactState, bool), last: Option<&Self>) -> Self {
         let fields = [&state.pressure, &state.shear[0], &state.shear[1]];
         let (rows, columns) = state.zone.dim();
         let fields = fields.map(|field| field.as_standard_layout());
@@ -40,7 +42,10 @@ impl Snapshot {
         let zones = zones.as_slice().unwrap_or_default();
         let touches =
             |cell: &usize| zones[*cell] != Zone::Open || flat.iter().any(|field| field[*cell] != 0.0);
-        let touched: Vec<usize> = (0..rows * columns).filter(touches).collect();
+        let slip = state.slip.each_ref().map(|field| field.as_standard_layout());
+        let slip = slip.each_ref().map(|field| field.as_slice().unwrap_or_default());
+        let slipped = |cell: &usize| with_slip && slip.iter().any(|field| field[*cell] != 0.0);
+        let touched: Vec<usize> = (0..rows * columns).filter(|cell| touches(cell) || slipped(cell)).collect();
         Self {
             record: record.clone(),
             shape: [rows, columns],
@@ -51,11 +56,12 @@ impl Snapshot {
             shift: state.shift,
             twist: state.twist,
             tilt: state.tilt,
+            slip: with_slip.then(|| slip.map(|field| touched.iter().map(|cell| field[*cell]).collect())),
             worn: state.worn_depth.as_ref().map(|depth| {
                 let same = last.and_then(|last| last.worn.as_ref()).filter(|known| ***known == *depth);
                 same.map_or_else(|| Arc::new(depth.clone()), Arc::clone)
             }),
-            ends_block: false,
+            block: 0,
         }
     }
 
@@ -66,6 +72,11 @@ impl Snapshot {
             (Some(now), None) => now.iter().any(|depth| *depth != 0.0),
             (None, _) => false,
         }
+    }
+
+    /// Depth worn off in a region of the grid; nothing where nothing wears.
+    pub fn worn_in(&self, region: Region) -> Vec<f64> {
+        self.worn.as_ref().map_or_else(Vec::new, |depth| region.gather(depth))
     }
 
     /// Motions of the state, without cells.
@@ -101,11 +112,14 @@ impl Snapshot {
         (tractions, zones)
     }
 
-    /// Tractions, zones and motions of the state; nothing else.
+    /// Tractions, zones, motions and, where it is asked for, slip of the state; nothing else.
     pub fn state(&self) -> ContactState {
         let mut state = self.of_shape(self.shape);
         let [shear_x, shear_y] = &mut state.shear;
         for (field, values) in [&mut state.pressure, shear_x, shear_y].into_iter().zip(&self.tractions) {
+            self.spread(values, field);
+        }
+        for (field, values) in state.slip.iter_mut().zip(self.slip.iter().flatten()) {
             self.spread(values, field);
         }
         self.spread(&self.zones, &mut state.zone);
@@ -128,6 +142,7 @@ impl Snapshot {
 
     /// Bytes that it takes.
     pub fn bytes(&self) -> usize {
-        size_of::<Self>() + self.cells.len() * CELL
+        let slip = if self.slip.is_some() { 2 * size_of::<f64>() } else { 0 };
+        size_of::<Self>() + self.cells.len() * (CELL + slip)
     }
 }

@@ -9,9 +9,10 @@ use super::change::{Reached, Tangential};
 use super::fields::{Fields, zeros};
 use super::loads::Load;
 use super::scene::Scene;
+use super::snapshot::Snapshot;
 use crate::model::{CoulombFriction, LoadStep, Zone};
 use crate::plan::Plan;
-use crate::solver::ContactSet;
+use crate::solver::{ContactSet, Region};
 
 /// A cell's two numbers.
 pub(super) fn at(field: &Tangential, cell: usize) -> [f64; 2] {
@@ -40,8 +41,8 @@ pub(super) struct Solved {
     /// Depth worn off after it, and the area that a cell stands for; nothing where nothing wears.
     pub worn: Vec<f64>,
     pub area: f64,
-    /// Whether a cycle or a stage ends with it, whose wear is taken off then, and whether that opens the gap.
-    pub ends_block: bool,
+    /// Cycles of the block that ends with it, whose wear is taken off then, none where nothing ends; and whether that opens the gap.
+    pub block: usize,
     pub opens: bool,
     pub zone: Array2<Zone>,
     /// Rotations times the length [length].
@@ -71,7 +72,7 @@ impl Solved {
             undeformed: scene.undeformed.clone(),
             worn: Vec::new(),
             area: scene.area(),
-            ends_block: false,
+            block: 0,
             opens: false,
             zone: Array2::from_elem(scene.region.shape, Zone::Open),
             motions: [0.0; MOTIONS],
@@ -114,6 +115,13 @@ impl Solved {
     /// Its length over that of the one before, in the loads.
     pub fn ratio(&self) -> f64 {
         self.pace.unwrap_or(1.0)
+    }
+
+    /// Goes on through an increment in which no load changed, as the run left it after the `last` one.
+    pub fn stood(&mut self, step: &Snapshot, last: Option<&Snapshot>, region: Region) {
+        self.zone = step.in_region(region).1;
+        self.opens = step.has_worn(last);
+        self.worn = step.worn_in(region);
     }
 
     /// Whether a load is the one that it ended with.

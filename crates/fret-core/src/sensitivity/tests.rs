@@ -97,12 +97,18 @@ fn fields(random: &mut Random, size: usize) -> Fields {
     [(); 3].map(|()| vector(random, size))
 }
 
+/// No change, of which slip is asked for.
+fn no_change(cells: usize) -> Change {
+    Change::none(cells).of_slip(true)
+}
+
 fn change(random: &mut Random, cells: usize) -> Change {
     let mut tangential = || [(); 2].map(|()| vector(random, cells));
-    let [shear, slid, drift] = [tangential(), tangential(), tangential()];
+    let [shear, slid, drift, slip] = [(); 4].map(|()| tangential());
     Change {
         worn: Vec::new(),
         collected: Vec::new(),
+        slip,
         pressure: vector(random, cells),
         shear,
         gap: vector(random, cells),
@@ -172,7 +178,7 @@ struct At<'a> {
 /// Shows every increment of a history that is linearised.
 fn each_increment(text: &str, mut show: impl FnMut(At<'_>, &mut Operators)) {
     let plan = Plan::new(Case::from_toml(text, "case.toml").unwrap()).unwrap();
-    let mut run = Snapshots { steps: Vec::new(), cycles: Vec::new(), observer: &mut Silent };
+    let mut run = Snapshots { steps: Vec::new(), cycles: Vec::new(), with_slip: true, observer: &mut Silent };
     Simulation::new(&plan).run(&mut run).unwrap();
     let steps = run.steps;
     let scene = Scene::new(&plan, &steps);
@@ -226,12 +232,11 @@ fn every_term_goes_backwards_by_its_transpose() {
 fn loads(random: &mut Random, at: &At<'_>, cells: usize) {
     let before = change(random, cells);
     let numbers: [f64; FREEDOMS] = array(random);
-    let mut next = Change::none(cells);
+    let mut next = no_change(cells);
     at.load.forward(&before, &numbers, &mut next);
     let y = change(random, cells);
-    let only_loads =
-        Change { start: y.start, held: y.held, from: y.from, load: y.load, ..Change::none(cells) };
-    let (mut back, mut of_numbers) = (Change::none(cells), [0.0; FREEDOMS]);
+    let only_loads = Change { start: y.start, held: y.held, from: y.from, load: y.load, ..no_change(cells) };
+    let (mut back, mut of_numbers) = (no_change(cells), [0.0; FREEDOMS]);
     at.load.transposed(&only_loads, &mut back, &mut of_numbers);
     let backward = of_changes(&back, &before) + dot(&of_numbers, &numbers);
     alike("loads", of_changes(&only_loads, &next), backward, 1e-12);
@@ -245,7 +250,7 @@ fn paths_of_slip(random: &mut Random, at: &At<'_>, rule: &Rule) {
     let [before, former, next] = [(); 3].map(|()| change(random, cells));
     let y = paths(random, at.now.contact.len());
     let forward = of_paths(&y, &rule.forward([&before, &former, &next]));
-    let [mut to_before, mut to_former, mut to_next] = [(); 3].map(|()| Change::none(cells));
+    let [mut to_before, mut to_former, mut to_next] = [(); 3].map(|()| no_change(cells));
     rule.transposed(y, [&mut to_before, &mut to_former, &mut to_next]);
     let pairs = [(&to_before, &before), (&to_former, &former), (&to_next, &next)];
     alike("paths", forward, pairs.map(|(a, b)| of_changes(a, b)).iter().sum(), 1e-12);
@@ -263,7 +268,7 @@ fn what_is_asked(random: &mut Random, contact: &Contact<'_>, (cells, contact_cel
         }
     }
     let forward = of_fields(&y.displacements, &asked.displacements) + dot(&y.amounts, &asked.amounts);
-    let [mut to_before, mut to_next] = [(); 2].map(|()| Change::none(cells));
+    let [mut to_before, mut to_next] = [(); 2].map(|()| no_change(cells));
     let (mut to_paths, mut to_drive) = (PathChange::none(contact_cells), Drive::none(cells));
     contact.asked_transposed(&y, [&mut to_before, &mut to_next], (&mut to_paths, &mut to_drive));
     let backward = of_changes(&to_before, &before)
@@ -288,13 +293,13 @@ fn what_follows(random: &mut Random, after: &After<'_>, (cells, contact_cells): 
         displacements: fields(random, cells),
         motions: array(random),
     };
-    let mut next = Change::none(cells);
+    let mut next = no_change(cells);
     after.forward((&solution, &of_paths_in, &of_drive), &before, &mut next);
     let none = [0.0; FREEDOMS];
     let y = Change { start: none, held: none, from: none, load: none, ..change(random, cells) };
     let forward = of_changes(&y, &next);
     let (mut to_paths, mut to_drive) = (PathChange::none(contact_cells), Drive::none(cells));
-    let mut to_before = Change::none(cells);
+    let mut to_before = no_change(cells);
     let back = after.transposed(&mut y.clone(), &mut to_before, (&mut to_paths, &mut to_drive));
     let backward = of_changes(&to_before, &before)
         + of_paths(&to_paths, &of_paths_in)
@@ -353,7 +358,7 @@ struct Made {
 
 impl Made {
     fn none(cells: usize) -> Self {
-        let [before, former] = [(); 2].map(|()| Change::none(cells));
+        let [before, former] = [(); 2].map(|()| no_change(cells));
         Self { before, former, drive: Drive::none(cells), numbers: [0.0; FREEDOMS] }
     }
 
@@ -392,12 +397,13 @@ impl Made {
 type Copies = fn(&mut Change, &Change);
 
 /// The blocks of a change.
-const BLOCKS: [(&str, Copies); 13] = [
+const BLOCKS: [(&str, Copies); 14] = [
     ("pressure", |to, of| to.pressure.clone_from(&of.pressure)),
     ("shear", |to, of| to.shear.clone_from(&of.shear)),
     ("gap", |to, of| to.gap.clone_from(&of.gap)),
     ("slid", |to, of| to.slid.clone_from(&of.slid)),
     ("drift", |to, of| to.drift.clone_from(&of.drift)),
+    ("slip", |to, of| to.slip.clone_from(&of.slip)),
     ("motions", |to, of| to.motions = of.motions),
     ("energies", |to, of| to.energies = of.energies),
     ("reached", |to, of| to.reached = of.reached),
@@ -431,7 +437,7 @@ fn an_increment_goes_backwards_by_its_transpose_block_by_block() {
                 .collect();
             for (to, copies) in BLOCKS {
                 let of_block = |change: &Change| {
-                    let mut found = Change::none(cells);
+                    let mut found = no_change(cells);
                     copies(&mut found, change);
                     found
                 };

@@ -1,7 +1,6 @@
 //! Wear, linearised: what an increment collects, and what is taken off the surfaces where a cycle, or a stage without cycles, ends. The formulas are those
 //! of the run (`run/slip_increment.rs`).
 
-use super::change::Change;
 use super::energies::{Bound, Inputs, Outputs, shares_of_slip};
 use super::rule::{Rule, combination, product};
 use super::scene::Scene;
@@ -27,7 +26,6 @@ struct Worn {
 pub(super) struct Wear {
     coefficient: f64,
     cells: Vec<Worn>,
-    ends_block: bool,
 }
 
 impl Wear {
@@ -73,7 +71,7 @@ impl Wear {
             Some(Worn { cell, place, shares, depth, by, bounds })
         };
         let cells = places.into_iter().enumerate().filter_map(of_cell).collect();
-        Self { coefficient: of.coefficient.unwrap_or(1.0), cells, ends_block: now.ends_block }
+        Self { coefficient: of.coefficient.unwrap_or(1.0), cells }
     }
 
     /// Change of the depth that has been collected in all cells of the region; `coefficient`: that of the wear coefficient.
@@ -96,22 +94,6 @@ impl Wear {
             collected[cell] += self.coefficient * product(by, &inputs) + coefficient * depth;
         }
         collected
-    }
-
-    /// Changes of the depth that is worn off, and of what is collected then.
-    pub fn taken_off(&self, before: &Change, collected: Vec<f64>) -> (Vec<f64>, Vec<f64>) {
-        let mut worn = before.worn.clone();
-        if !self.ends_block {
-            return (worn, collected);
-        }
-        worn.iter_mut().zip(&collected).for_each(|(worn, more)| *worn += more);
-        (worn, vec![0.0; collected.len()])
-    }
-
-    /// Backwards: from those after the increment to that of what has been collected.
-    pub fn taken_off_transposed(&self, next: &Change, before: &mut Change) -> Vec<f64> {
-        before.worn.iter_mut().zip(&next.worn).for_each(|(before, worn)| *before += worn);
-        if self.ends_block { next.worn.clone() } else { next.collected.clone() }
     }
 
     /// Backwards, from that of what has been collected.

@@ -49,6 +49,22 @@ impl StressTensor {
         Self(std::array::from_fn(|part| self.0[part] + factor * other.0[part]))
     }
 
+    /// Largest principal stress in the plane of the surface [pressure].
+    pub fn tension_in_surface(&self) -> f64 {
+        let [xx, yy, _, xy, ..] = self.0;
+        0.5 * (xx + yy) + (0.5 * (xx - yy)).hypot(xy)
+    }
+
+    /// Its derivatives by the components; those of the mean where both principal stresses are one.
+    #[must_use]
+    pub fn slopes_of_tension_in_surface(&self) -> Self {
+        let [xx, yy, _, xy, ..] = self.0;
+        let half = 0.5 * (xx - yy);
+        let size = half.hypot(xy);
+        let [turned, sheared] = if size > 0.0 { [half / size, xy / size] } else { [0.0; 2] };
+        Self([0.5 * (1.0 + turned), 0.5 * (1.0 - turned), 0.0, sheared, 0.0, 0.0])
+    }
+
     /// The sum of the products of the components.
     pub fn times(&self, other: &Self) -> f64 {
         self.0.iter().zip(other.0).map(|(one, other)| one * other).sum()
@@ -83,6 +99,15 @@ mod tests {
                         "{measure:?} {part}: {slopes:?} {expected}"
                     );
                 }
+            }
+            let slopes = stress.slopes_of_tension_in_surface();
+            for part in 0..6 {
+                let [up, down] = [1e-6, -1e-6].map(|step| {
+                    let mut moved = stress;
+                    moved.0[part] += step;
+                    moved.tension_in_surface()
+                });
+                assert!((slopes.0[part] - (up - down) / 2e-6).abs() < 1e-8, "{part}: {slopes:?}");
             }
         }
         assert_eq!(Measure::VonMises.slopes(&StressTensor::default()), StressTensor::default());

@@ -21,4 +21,4 @@ pub use life::{cycles_by_fatemi_socie, cycles_by_smith_watson_topper};
 pub use parameter::{Bounds, Evaluated, Parameter};
 pub use shakedown::{first_yield_strength, shakedown_strength};
 pub use slopes::ParameterSlopes;
-pub use surface::{Ruiz, SurfacePoint, ruiz};
+pub use surface::{Ruiz, RuizParts, SurfacePoint, ruiz};

@@ -29,22 +29,48 @@ pub struct Ruiz {
 ///
 /// Source: Ruiz, Boddington & Chen (1984), *Exp. Mech.* 24, 208.
 pub fn ruiz(cycle: &[SurfacePoint]) -> Ruiz {
-    let shear = cycle.iter().map(|point| point.shear[0].hypot(point.shear[1])).fold(0.0, f64::max);
-    let mut range = 0.0_f64;
-    for (n, one) in cycle.iter().enumerate() {
-        for other in &cycle[..n] {
-            range = range.max((one.slip[0] - other.slip[0]).hypot(one.slip[1] - other.slip[1]));
+    let parts = RuizParts::of(cycle);
+    Ruiz { f1: parts.f1(), f2: parts.f1() * parts.tension.0 }
+}
+
+/// What Ruiz's parameters at a point are made of: the largest of each over the cycle, and at which of its points.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct RuizParts {
+    /// Largest shear traction [pressure].
+    pub shear: (f64, usize),
+    /// Longest chord of the path of slip [length], from one point to a later one.
+    pub chord: (f64, [usize; 2]),
+    /// Largest tension in the surface [pressure], 0 in compression.
+    pub tension: (f64, usize),
+}
+
+impl RuizParts {
+    /// Those of a cycle.
+    pub fn of(cycle: &[SurfacePoint]) -> Self {
+        let mut found = Self::default();
+        for (n, one) in cycle.iter().enumerate() {
+            let shear = one.shear[0].hypot(one.shear[1]);
+            if shear > found.shear.0 {
+                found.shear = (shear, n);
+            }
+            let tension = one.stress.tension_in_surface();
+            if tension > found.tension.0 {
+                found.tension = (tension, n);
+            }
+            for (m, other) in cycle[..n].iter().enumerate() {
+                let chord = (one.slip[0] - other.slip[0]).hypot(one.slip[1] - other.slip[1]);
+                if chord > found.chord.0 {
+                    found.chord = (chord, [m, n]);
+                }
+            }
         }
+        found
     }
-    let tension = cycle
-        .iter()
-        .map(|point| {
-            let [xx, yy, _, xy, ..] = point.stress.0;
-            0.5 * (xx + yy) + (0.5 * (xx - yy)).hypot(xy)
-        })
-        .fold(0.0, f64::max);
-    let f1 = shear * 0.5 * range;
-    Ruiz { f1, f2: f1 * tension }
+
+    /// Largest shear traction times slip amplitude [pressure x length].
+    pub fn f1(&self) -> f64 {
+        self.shear.0 * 0.5 * self.chord.0
+    }
 }
 
 #[cfg(test)]
