@@ -112,6 +112,13 @@ impl CellWaves<'_> {
     }
 }
 
+/// The same of a periodic response `zz` on a `shape` of cells, along the axis that has more of them.
+fn is_stiff(zz: &Array2<f64>, shape: [usize; 2]) -> bool {
+    let axis = usize::from(shape[1] > shape[0]);
+    let times_k = |wave: usize| wave as f64 * zz[if axis == 0 { [wave, 0] } else { [0, wave] }];
+    shape[axis] > 1 && times_k(1) > STIFF_ABOVE * times_k(shape[axis] / 2)
+}
+
 impl Preconditioner {
     /// Inverses for a region of `shape` cells, of pressure and of what shear its `operators` know. `waves` serves in free space;
     /// with mirrors the region stands for a larger one.
@@ -145,7 +152,11 @@ impl Preconditioner {
         };
         let least = smallest_positive(&normal);
         normal.mapv_inplace(|value| if value == 0.0 { 0.0 } else { value.max(least) });
-        let stiff = waves.is_some_and(|waves| waves.are_stiff(shape));
+        let stiff = if response.is_periodic() {
+            full && is_stiff(&normal, shape)
+        } else {
+            waves.is_some_and(|waves| waves.are_stiff(shape))
+        };
         let edge = if stiff && full {
             let forward = Symbol { values: normal.view(), parity: Parity::EvenEven };
             let kernel = kernel_of(forward, shape)?;
