@@ -60,7 +60,7 @@ pub fn in_words(found: &Identification) -> Vec<String> {
     let mut lines = Vec::new();
     for (number, constant) in found.constants.iter().enumerate() {
         let fits = || found.repeated.iter().filter_map(|fit| Some((fit.cycle, told(fit, number)?.value)));
-        if let (Some((from, first)), Some((to, last))) = (fits().next(), fits().last()) {
+        if let (Some((from, first)), Some((to, last))) = (fits().next(), fits().next_back()) {
             lines.push(format!(
                 "  {:<22} {} in cycle {from} to {} in cycle {to} ({} fits)",
                 constant.name,
