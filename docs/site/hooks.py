@@ -16,6 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples"
 LINK = re.compile(r"(!?)\[([^\]]*)\]\((\.\./[^)#\s]*)(#[^)]*)?\)")
 PICTURE = re.compile(r'(<img alt="[^"]*" src="((?:\.\./)?pictures/[\w-]+\.(?:png|svg))" />)')
+ROLE = re.compile(r":(?:attr|class|func|meth|mod):<code>(~?)([\w.]+)</code>")
 FORMULA = re.compile(r'<(span|div) class="arithmatex">\\([(\[])(.*?)\\[)\]]</\1>', re.DOTALL)
 
 
@@ -53,7 +54,9 @@ def on_page_markdown(markdown: str, page: Any, **_: object) -> str:
 
 
 def on_page_content(content: str, page: Any, **_: object) -> str:
-    """Write formulas as MathML, which browsers draw themselves; offer tutorials as notebooks."""
+    """Write formulas as MathML, which browsers draw themselves, and the names in docstrings as links; offer tutorials as
+    notebooks.
+    """
 
     def drawn(formula: re.Match[str]) -> str:
         display = "block" if formula[2] == "[" else "inline"
@@ -61,6 +64,7 @@ def on_page_content(content: str, page: Any, **_: object) -> str:
         return f'<div class="formula">{written}</div>' if display == "block" else written
 
     content = FORMULA.sub(drawn, content)
+    content = ROLE.sub(lambda role: _named(role, content), content)
     # A picture opens by itself, as large as it is: on a phone its letters are small.
     content = PICTURE.sub(r'<a href="\2">\1</a>', content)
     if _is_tutorial(page.file.src_path) and "```python" in page.markdown:
@@ -108,6 +112,15 @@ def _as_code(words: str) -> str:
     """Return words of a link as HTML: in backticks they are code."""
     plain = html.escape(words.strip("`"))
     return f"<code>{plain}</code>" if words.startswith("`") else plain
+
+
+def _named(role: re.Match[str], content: str) -> str:
+    """Return what a docstring names: a link, if the page has a place for it."""
+    name = role[2]
+    shown = f"<code>{name.rpartition('.')[2] if role[1] else name}</code>"
+    places = [f"fretting.{name}", f"fretting.analytic.{name}", name]
+    place = next((place for place in places if f'id="{place}"' in content), None)
+    return f'<a href="#{place}">{shown}</a>' if place else shown
 
 
 def _is_tutorial(path: str) -> bool:
