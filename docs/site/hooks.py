@@ -14,27 +14,34 @@ from latex2mathml.converter import convert
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples"
+NOTES = "developers/"
 LINK = re.compile(r"(!?)\[([^\]]*)\]\((\.\./[^)#\s]*)(#[^)]*)?\)")
 PICTURE = re.compile(r'(<img alt="[^"]*" src="((?:\.\./)?pictures/[\w-]+\.(?:png|svg))" />)')
+ROLE = re.compile(r":(?:attr|class|func|meth|mod):<code>(~?)([\w.]+)</code>")
 FORMULA = re.compile(r'<(span|div) class="arithmatex">\\([(\[])(.*?)\\[)\]]</\1>', re.DOTALL)
 
 
 def on_config(config: Any) -> Any:
-    """Put pages that stand nowhere in the navigation under "More"."""
+    """Put pages that stand nowhere in the navigation under "More", but for developers' notes."""
     docs = Path(config["docs_dir"])
     listed = set(_pages(config["nav"]))
     excluded = docs / "site"
     found = sorted(path for path in docs.rglob("*.md") if excluded not in path.parents)
-    more = [path.relative_to(docs).as_posix() for path in found if path.relative_to(docs).as_posix() not in listed]
+    places = [path.relative_to(docs).as_posix() for path in found]
+    more = [place for place in places if place not in listed and not place.startswith(NOTES)]
     if more:
         config["nav"] = [*config["nav"], {"More": more}]
     return config
 
 
-def on_page_markdown(markdown: str, page: Any, **_: object) -> str:
+def on_page_markdown(markdown: str, page: Any, config: Any, **_: object) -> str:
     """Name files outside the pages instead of linking them, but for examples, which the site has; they must be there."""
-    if page.file.src_path.startswith(("developers/", "releases/")):
-        page.meta.setdefault("search", {"boost": 0.2})  # users search for their own words
+    place = page.file.src_path
+    search = page.meta.setdefault("search", {})
+    if place.startswith((NOTES, "releases/")):  # users search for their own words
+        search.setdefault("boost", 0.2)
+    if place.startswith(NOTES) and place not in _pages(config["nav"]):
+        search["exclude"] = True
     here = Path(page.file.abs_src_path).parent
 
     def name(link: re.Match[str]) -> str:
@@ -53,7 +60,9 @@ def on_page_markdown(markdown: str, page: Any, **_: object) -> str:
 
 
 def on_page_content(content: str, page: Any, **_: object) -> str:
-    """Write formulas as MathML, which browsers draw themselves; offer tutorials as notebooks."""
+    """Write formulas as MathML, which browsers draw themselves, and the names in docstrings as links; offer tutorials as
+    notebooks.
+    """
 
     def drawn(formula: re.Match[str]) -> str:
         display = "block" if formula[2] == "[" else "inline"
@@ -61,6 +70,10 @@ def on_page_content(content: str, page: Any, **_: object) -> str:
         return f'<div class="formula">{written}</div>' if display == "block" else written
 
     content = FORMULA.sub(drawn, content)
+    content = ROLE.sub(lambda role: _named(role, content), content)
+    # Words that a page is searched by and does not use: `search: { words: ... }` of its head. Found, not shown.
+    if words := page.meta.get("search", {}).get("words"):
+        content = content.replace("</h1>", f"</h1><p hidden>{html.escape(words)}</p>", 1)
     # A picture opens by itself, as large as it is: on a phone its letters are small.
     content = PICTURE.sub(r'<a href="\2">\1</a>', content)
     if _is_tutorial(page.file.src_path) and "```python" in page.markdown:
@@ -108,6 +121,15 @@ def _as_code(words: str) -> str:
     """Return words of a link as HTML: in backticks they are code."""
     plain = html.escape(words.strip("`"))
     return f"<code>{plain}</code>" if words.startswith("`") else plain
+
+
+def _named(role: re.Match[str], content: str) -> str:
+    """Return what a docstring names: a link, if the page has a place for it."""
+    name = role[2]
+    shown = f"<code>{name.rpartition('.')[2] if role[1] else name}</code>"
+    places = [f"fretting.{name}", f"fretting.analytic.{name}", name]
+    place = next((place for place in places if f'id="{place}"' in content), None)
+    return f'<a href="#{place}">{shown}</a>' if place else shown
 
 
 def _is_tutorial(path: str) -> bool:

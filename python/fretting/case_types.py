@@ -1284,7 +1284,7 @@ class Stage(TypedDict):
     spin: NotRequired[float]
     """
     Spin [rad/length]: rotation of the upper body about the middle of the contact by distance rolled, the same all along the stage,
-    which has a `roll`; with `kinematics.frame = "contact"`.
+    which has a `roll`.
     """
     table: NotRequired[str]
     """

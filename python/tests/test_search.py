@@ -97,6 +97,17 @@ QUERIES = {
     "Hertz pressure": {"learn/hertz-then-a-coating.html", "reference/closed-forms.html"},
     "spreadsheet": {"do/read-results.html"},
     "methods section": {"cite.html", "do/publication-figures.html"},
+    "nanoindenter": {"do/identify-indentation.html"},
+    "interactive": {"do/explore.html"},
+    "decimal comma": {"do/load-the-contact.html", "do/units.html", "do/compare-with-a-rig.html"},
+    "crowned roller": {"do/describe-the-bodies.html"},
+    "template": {"learn/quick-start.html"},
+    "diameter or radius of the ball": {"faq.html", "do/describe-the-bodies.html"},
+    "load cell": {"do/compare-with-a-rig.html"},
+    "atomic force microscope": {"do/describe-the-bodies.html"},
+    "Young's modulus DLC": {"reference/materials.html"},
+    "frequency": {"faq.html", "do/temperature-and-contact-resistance.html"},
+    "displacement amplitude": {"do/load-the-contact.html"},
     "how many cycles until steady": {"do/load-the-contact.html", "learn/wear.html"},
 }
 """Queries, and the pages that answer them: one of these has to come first."""
@@ -122,6 +133,19 @@ def found(site: Path) -> dict[str, list[str]]:
 @pytest.mark.parametrize("query", QUERIES)
 def test_the_right_page_comes_first(query: str, found: dict[str, list[str]]) -> None:
     assert found[query][:1] and found[query][0] in QUERIES[query], found[query]
+
+
+def test_developers_notes_are_neither_found_nor_in_the_menu(site: Path) -> None:
+    index = json.loads((site / "search" / "search_index.json").read_text(encoding="utf-8"))
+    shown = (site / "index.html").read_text(encoding="utf-8")
+    places = {entry["location"].partition("#")[0] for entry in index["docs"]}
+    folder = site / "developers"
+    listed = {page.name for page in folder.glob("*.html") if f"developers/{page.name}" in places}
+    assert listed == {"api-decisions.html", "dependencies.html", "extend.html", "notes.html", "versions.html"}
+    links = (folder / "notes.html").read_text(encoding="utf-8")
+    for page in folder.glob("*.html"):
+        if page.name not in listed:
+            assert f'href="developers/{page.name}"' not in shown and f'href="{page.name}"' in links, page.name
 
 
 def test_the_search_needs_no_server_and_no_network(site: Path) -> None:

@@ -217,7 +217,7 @@ pub const ROWS: [Row; 15] = [
     Row {
         concern: Concern::PressingInFewIncrements,
         name: "pressing_in_few_increments",
-        quantity: "cells by which the contact radius grows in an increment",
+        quantity: "cells by which the contact radius grows in an increment, or sixteenths of the radius where these are longer",
         bound: RING_CELLS,
         warns_below: false,
         consequence: "each increment leaves a ring in the shear traction",

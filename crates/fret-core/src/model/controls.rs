@@ -192,7 +192,7 @@ pub static CONTROLS: [ControlRow; 7] = [
                 kind: Rate,
                 name: "spin",
                 unit: "rad/length",
-                about: "Spin [rad/length]: rotation of the upper body about the middle of the contact by distance rolled, the same all along the stage,\nwhich has a `roll`; with `kinematics.frame = \"contact\"`.",
+                about: "Spin [rad/length]: rotation of the upper body about the middle of the contact by distance rolled, the same all along the stage,\nwhich has a `roll`.",
                 phase: "Not available: spin is the same all along a stage.",
             },
         ],
