@@ -142,6 +142,8 @@ pub fn error_bars(plan: &Plan, fine: &[StageQuantities], coarse: &[StageQuantiti
 struct Scene {
     /// Surfaces without edges and tips.
     is_smooth: bool,
+    /// Measured surfaces, of which finer cells show more.
+    is_measured: bool,
     /// A body ends where the contact ends.
     ends: bool,
     /// The contact has corners.
@@ -162,10 +164,11 @@ impl Scene {
     fn of(plan: &Plan) -> Self {
         let shapes = &plan.case.profile.shapes;
         let ends = shapes.iter().any(super::unbounded::ends);
+        let is_measured = !plan.case.profile.heights.is_empty();
+        let is_smooth = |shape: &Shape| shape.curvatures().is_some() || matches!(shape, Shape::Wave { .. });
         Self {
-            is_smooth: shapes
-                .iter()
-                .all(|shape| shape.curvatures().is_some() || matches!(shape, Shape::Wave { .. })),
+            is_smooth: !is_measured && shapes.iter().all(is_smooth),
+            is_measured,
             ends,
             has_corners: shapes.iter().any(|shape| matches!(shape, Shape::Pyramid { .. })),
             is_pointed: pressure_is_unbounded(shapes),
@@ -209,7 +212,8 @@ impl Scene {
                     Dimension::Plane => EDGE,
                     Dimension::Line => EDGE_OF_LINE,
                 };
-                (value, Some(edge * fine.contact_edge))
+                let of_peaks = if self.is_measured { UNKNOWN_ORDER * apart } else { 0.0 };
+                (value, Some((edge * fine.contact_edge).max(of_peaks)))
             }
             Quantity::StickArea => {
                 // What sticks may be a cell that no cell shows.
