@@ -5,7 +5,7 @@ use fret_core::plan::Plan;
 use fret_core::run::Silent;
 use fret_core::study::{
     ClosedForm, Form, Kind, Line, Quantity, Reference, RefinementStudy, ResolutionError, Resolutions, Source,
-    solved_level,
+    companion, error_bars, solved_level,
 };
 use fret_validation::Sphere;
 
@@ -173,4 +173,85 @@ fn a_limit_passes_over_levels_that_are_missing() {
     let holed = RefinementStudy::new(resolutions, levels.into());
     let approach = |study: &RefinementStudy| study.limit().unwrap().of(Quantity::Approach)[0].unwrap()[0];
     assert_eq!(approach(&holed), approach(&whole));
+}
+
+/// A paraboloid as a scan of 96 points a side, with what follows its keys, under a grid that covers its middle 48.
+fn scanned(keys: &str, cells: usize) -> Case {
+    let spacing = 1.0 / 32.0;
+    let place = |point: usize| (point as f64 - 47.5) * spacing;
+    let rows: Vec<Vec<f64>> =
+        (0..96).map(|i| (0..96).map(|j| -(place(i).powi(2) + place(j).powi(2)) / 2.0).collect()).collect();
+    let heights = format!("heights]\nvalues = {rows:?}\nsize = [3.0, 3.0]\n{keys}");
+    pressed_to(0.5, &heights, cells)
+}
+
+/// A body pressed on a grid of 1.5 by 1.5 until its contact has a radius, were it a sphere of radius 1.
+fn pressed_to(radius: f64, profile: &str, cells: usize) -> Case {
+    let force = 4.0 / 3.0 * radius.powi(3);
+    let text = format!(
+        "[grid]\ncells = [{cells}, {cells}]\nsize = [1.5, 1.5]\n[upper]\nrigid = true\n\
+         [lower]\nsubstrate = {{ young = 1.0, poisson = 0.0 }}\n[solver]\ntolerance = 1e-10\n\
+         [profile.{profile}\n[[load]]\nnormal_force = {force}\nincrements = 1\n"
+    );
+    Case::from_toml(&text, "case.toml").unwrap()
+}
+
+/// The mean of a paraboloid over a cell lies as far above the value in its middle for every cell, and so does a surface that is linear
+/// between points of which as many lie in each: a study of the scan is that of the paraboloid itself, but that the approach is counted from the
+/// middles of the four cells in the middle, h^2/4R away from the tip.
+#[test]
+fn a_study_of_a_resampled_scan_is_that_of_the_measured_surface() {
+    let levels = [12, 24, 48];
+    let [scan, sphere] = [scanned("resample = \"linear\"", 48), pressed_to(0.5, "sphere]\nradius = 1.0", 48)]
+        .map(|case| {
+            let plan = Plan::new(case).unwrap();
+            solved(&plan, Resolutions::new(&plan, &levels, &[], &[]).unwrap())
+        });
+    for (number, cells) in levels.into_iter().enumerate() {
+        let [scan, sphere] = [&scan, &sphere].map(|study| &study.level([number, 0, 0]).unwrap().ends[0]);
+        let cell = 1.5 / cells as f64;
+        let pairs = [
+            (scan.max_pressure, sphere.max_pressure),
+            (scan.contact_area, sphere.contact_area),
+            (scan.approach + cell * cell / 4.0, sphere.approach),
+        ];
+        for (scan, sphere) in pairs {
+            // rounding of the heights, 1e-16 of some 1, and the tolerance of the solver, 1e-10, some tens of times
+            assert!((scan / sphere - 1.0).abs() < 1e-8, "{cells} cells: {scan}, {sphere}");
+        }
+    }
+}
+
+/// Bars of a resampled scan are there, and hold: about Hertz's pressure and area.
+#[test]
+fn error_bars_of_a_resampled_scan_cover_the_closed_form() {
+    let plan = Plan::new(scanned("resample = \"linear\"", 48)).unwrap();
+    let [fine, coarse] =
+        [&plan, &companion(&plan).unwrap()].map(|plan| solved_level(plan, &mut Silent).unwrap().ends);
+    let bars = error_bars(&plan, &fine, &coarse);
+    let pressure = 2.0 * 0.5 / std::f64::consts::PI;
+    let area = std::f64::consts::PI * 0.25;
+    for (quantity, exact) in [(Quantity::MaxPressure, pressure), (Quantity::ContactArea, area)] {
+        let said = bars[0].of(quantity).unwrap();
+        let bar = said.bar.unwrap();
+        assert!((said.value[0] - exact).abs() <= bar && bar < 0.05 * exact, "{said:?}, exact {exact}");
+    }
+}
+
+/// Heights of the cells alone have no other grid; the message names the way out.
+#[test]
+fn heights_of_the_cells_alone_are_not_studied() {
+    let case = scanned("resample = \"linear\"", 48);
+    assert!(companion(&Plan::new(case).unwrap()).is_ok());
+    let own = Plan::new(pressed_to(
+        0.1,
+        "heights]\nvalues = [[0.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]]\n",
+        4,
+    ));
+    let plan = own.unwrap();
+    for refused in [companion(&plan).map(|_| ()), Resolutions::new(&plan, &[4, 8], &[], &[]).map(|_| ())] {
+        let error = refused.unwrap_err();
+        assert_eq!(error, ResolutionError::Heights);
+        assert!(error.to_string().contains("resample = \"linear\""), "{error}");
+    }
 }

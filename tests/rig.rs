@@ -361,7 +361,7 @@ fn a_refinement_study_drives_the_far_end_at_every_level() {
     let study = RefinementStudy::new(resolutions, levels);
     let alone = solved(&text);
     let finest = &study.finest().unwrap().ends[1];
-    assert_eq!(finest.plain(Quantity::Shift)[0], alone.steps.last().unwrap().shift[0]);
+    assert_eq!(finest.plain(Quantity::Shift).unwrap()[0], alone.steps.last().unwrap().shift[0]);
     // A closed form that speaks of the shift here would have to know the force.
     let said = ClosedForm::of(&plan).and_then(|form| form.ends()[1].of(Quantity::Shift));
     assert!(said.is_none_or(|said| (said[0] / exact.shift - 1.0).abs() < 1e-9), "{said:?}");
@@ -371,7 +371,9 @@ fn a_refinement_study_drives_the_far_end_at_every_level() {
         .resolutions()
         .line(Kind::Cells)
         .into_iter()
-        .map(|place| study.level(place).unwrap().ends[1].between(Quantity::Shift)[0] / exact.shift - 1.0)
+        .map(|place| {
+            study.level(place).unwrap().ends[1].between(Quantity::Shift).unwrap()[0] / exact.shift - 1.0
+        })
         .collect();
     println!("limit of the shift {:.2e} off; errors {errors:?}", shift / exact.shift - 1.0);
     // 64 cells in 2.4 contact radii know the shift to some 1e-3; coarser ones do not know it better.

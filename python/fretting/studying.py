@@ -12,7 +12,19 @@ from fretting._arguments import reals, wholes
 if TYPE_CHECKING:
     import xarray
 
-QUANTITIES = ("max_pressure", "approach", "contact_area", "stick_area", "shift", "dissipated_energy")
+QUANTITIES = (
+    "max_pressure",
+    "approach",
+    "contact_area",
+    "stick_area",
+    "shift",
+    "dissipated_energy",
+    "creepage",
+    "spin",
+    "rolling_friction",
+    "max_worn_depth",
+    "worn_volume",
+)
 _READINGS = {
     "error": ("errors", "relative error against the reference, by sub-cell reconstruction"),
     "error_plain": ("errors_plain", "relative error of the plain sum or maximum over cells"),

@@ -88,22 +88,27 @@ impl Estimate {
         };
         row("error bars, at the end of", &|bars| shortened(&stage_name(bars.stage), COLUMN - 2));
         let dimension = Dimension::of(self.cells);
-        for quantity in Quantity::ALL {
-            let scalar = |bars: &Bars| number(&bars.of(quantity), 0);
+        let has = |quantity: Quantity| shown.iter().any(|bars| bars.of(quantity).is_some());
+        for quantity in Quantity::ALL.into_iter().filter(|quantity| has(*quantity)) {
+            let told = |bars: &Bars, tell: &dyn Fn(&Bar) -> String| {
+                bars.of(quantity).map_or("-".to_owned(), |bar| tell(&bar))
+            };
+            let scalar = |bars: &Bars| told(bars, &|bar| with_bar(bar.value[0], bar.bar));
+            let name = name(quantity, dimension);
             match quantity {
                 Quantity::StickArea | Quantity::Shift | Quantity::DissipatedEnergy if !self.rubs => {}
-                Quantity::Shift => {
+                Quantity::Shift | Quantity::Creepage => {
                     for (axis, direction) in ["x", "y"].into_iter().enumerate() {
-                        row(&format!("shift {direction}"), &|bars| {
-                            shift(&bars.of(quantity), axis, bars.of(Quantity::Approach).value[0])
+                        row(&format!("{name} {direction}"), &|bars| {
+                            told(bars, &|bar| component(bar, axis, beside(bars, quantity)))
                         });
                     }
                 }
                 Quantity::ContactArea if dimension == Dimension::Plane => {
-                    row(name(quantity, dimension), &scalar);
-                    row("radius of a circle of that area", &|bars| radius(&bars.of(quantity)));
+                    row(name, &scalar);
+                    row("radius of a circle of that area", &|bars| told(bars, &radius));
                 }
-                _ => row(name(quantity, dimension), &scalar),
+                _ => row(name, &scalar),
             }
         }
         let cells = dimension.written(self.cells);
@@ -124,7 +129,7 @@ impl Estimate {
         let stage = |bars: &Bars| {
             let mut value = json!({ "stage": bars.stage, "name": stage_name(bars.stage) });
             for Bar { quantity, value: number, bar } in &bars.bars {
-                let number = if *quantity == Quantity::Shift { json!(number) } else { json!(number[0]) };
+                let number = if quantity.has_components() { json!(number) } else { json!(number[0]) };
                 value[quantity.name()] = json!({ "value": number, "error_bar": bar });
             }
             value
@@ -136,14 +141,17 @@ impl Estimate {
     }
 }
 
-/// `value ± bar`.
-fn number(bar: &Bar, axis: usize) -> String {
-    with_bar(bar.value[axis], bar.bar)
+/// What a component of a motion vanishes beside: the approach; of a creepage, which is a ratio, one.
+fn beside(bars: &Bars, quantity: Quantity) -> f64 {
+    match bars.of(Quantity::Approach) {
+        Some(approach) if quantity == Quantity::Shift => approach.value[0].abs(),
+        _ => 1.0,
+    }
 }
 
-/// A shift with its bar, both zero where they vanish in the rounding of the approach.
-fn shift(bar: &Bar, axis: usize, approach: f64) -> String {
-    let above_rounding = |value: f64| if value.abs() <= 1e-12 * approach.abs() { 0.0 } else { value };
+/// A component with its bar, both zero where they vanish in the rounding of what they are beside.
+fn component(bar: &Bar, axis: usize, beside: f64) -> String {
+    let above_rounding = |value: f64| if value.abs() <= 1e-12 * beside { 0.0 } else { value };
     with_bar(above_rounding(bar.value[axis]), bar.bar.map(above_rounding))
 }
 
@@ -153,6 +161,7 @@ fn radius(area: &Bar) -> String {
     with_bar(radius, area.bar.filter(|_| radius > 0.0).map(|bar| bar / (2.0 * PI * radius)))
 }
 
+/// `value ± bar`.
 fn with_bar(value: f64, bar: Option<f64>) -> String {
     match bar {
         Some(0.0) => figure(value),

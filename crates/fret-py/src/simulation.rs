@@ -12,10 +12,10 @@ use std::time::Duration;
 
 use fret_cli::embedded;
 use fret_core::history::{CycleRecord, KeptFields, StepRecord};
-use fret_core::model::{MirroredState, SurfaceGrid};
+use fret_core::model::MirroredState;
 use fret_core::plan::{Advance, Plan};
 use fret_core::run::{Checkpoint, Iteration, Observer, Simulation};
-use fret_core::study::StageQuantities;
+use fret_core::study::{QuantityReader, StageQuantities};
 use fret_results::Wish;
 use pyo3::prelude::{Py, PyAny, PyErr, PyResult, Python, pyfunction};
 
@@ -41,7 +41,7 @@ pub struct Reporter<'a> {
     heard: Receiver<()>,
     tells_steps: bool,
     advance: Advance,
-    grid: SurfaceGrid,
+    reader: QuantityReader,
     /// Quantities of interest at the ends of the stages so far.
     quantities: Vec<StageQuantities>,
 }
@@ -89,7 +89,7 @@ impl Observer for Reporter<'_> {
         if self.quantities.last().is_some_and(|end| end.stage == record.stage) {
             self.quantities.pop();
         }
-        self.quantities.push(StageQuantities::new(&self.grid, record, state));
+        self.quantities.push(self.reader.read(record, state));
         let passed = self.advance.passed();
         if self.tells_steps && self.news.send(Solved(Box::new(record.clone()), passed)).is_ok() {
             self.wait_until_heard();
@@ -187,7 +187,7 @@ pub fn listen<T: Send>(
         heard,
         tells_steps: on_step.is_some(),
         advance: Advance::new(&plan.case),
-        grid: plan.grid,
+        reader: QuantityReader::of(plan),
         quantities: Vec::new(),
     };
     let mut interruption: Option<PyErr> = None;

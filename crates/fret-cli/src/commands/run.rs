@@ -5,7 +5,7 @@ use std::time::Instant;
 use fret_core::history::Warning;
 use fret_core::history::{WornByLayer, WornThrough};
 use fret_core::run::{Checkpoint, Simulation};
-use fret_core::study::StageQuantities;
+use fret_core::study::{QuantityReader, StageQuantities};
 use serde_json::json;
 
 use super::preparation::{Preparation, Wanted};
@@ -160,7 +160,7 @@ impl Preparation {
                 .telling_all(self.verbose),
             tally,
             clock: Clock { started: Instant::now(), before_s: wall_s },
-            grid: self.plan.grid,
+            quantities: QuantityReader::of(&self.plan),
             failure: None,
             guest,
         };

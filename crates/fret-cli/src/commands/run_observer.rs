@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use fret_core::history::{CycleRecord, KeptFields, StepRecord};
-use fret_core::model::{MirroredState, SurfaceGrid};
+use fret_core::model::MirroredState;
 use fret_core::run::{Iteration, Observer, Waypoint};
-use fret_core::study::StageQuantities;
+use fret_core::study::QuantityReader;
 
 use crate::failure::Failure;
 use crate::progress::Progress;
@@ -34,8 +34,8 @@ pub struct RunObserver<'a> {
     pub progress: Progress,
     pub tally: Tally,
     pub clock: Clock,
-    /// Where quantities of interest are read.
-    pub grid: SurfaceGrid,
+    /// Reads quantities of interest.
+    pub quantities: QuantityReader,
     pub failure: Option<Failure>,
     /// Who else hears about it.
     pub guest: &'a mut Guest<'a>,
@@ -69,7 +69,7 @@ impl Observer for RunObserver<'_> {
         let writing = self.folder.keep(record, kept);
         self.after(writing)?;
         self.tally.add(record);
-        self.tally.read(StageQuantities::new(&self.grid, record, state));
+        self.tally.read(self.quantities.read(record, state));
         self.progress.solved(record, &self.tally);
         self.guest.solved(record, state, kept)
     }

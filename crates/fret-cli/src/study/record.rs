@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use fret_core::history::Work;
 use fret_core::study::{
-    Advice, ClosedForm, Convergence, Form, Judged, Kind, Level, Line, Place, Quantity, Reference,
-    RefinementStudy, Source, StageQuantities,
+    Advice, ClosedForm, Convergence, Form, Judged, Kind, Level, Line, PerQuantity, Place, Quantity,
+    Reference, RefinementStudy, Source, StageQuantities,
 };
 use serde::{Deserialize, Serialize};
 
@@ -144,7 +144,7 @@ impl StudyRecord {
 
 impl LevelRecord {
     fn new(level: &Level, judged: &Judged) -> Self {
-        let numbers = |values: &[Option<f64>; 6]| of_quantities(|quantity| values[quantity as usize]);
+        let numbers = |values: &PerQuantity<Option<f64>>| of_quantities(|quantity| values[quantity as usize]);
         let errors = &judged.errors;
         Self {
             cells: level.variation.cells,

@@ -19,6 +19,11 @@ struct ReferenceFile {
     stick_area: Option<Spanned<f64>>,
     shift: Option<Spanned<[f64; 2]>>,
     dissipated_energy: Option<Spanned<f64>>,
+    creepage: Option<Spanned<[f64; 2]>>,
+    spin: Option<Spanned<f64>>,
+    rolling_friction: Option<Spanned<f64>>,
+    max_worn_depth: Option<Spanned<f64>>,
+    worn_volume: Option<Spanned<f64>>,
 }
 
 /// The numbers of a reference file (TOML), for a history of so many stages.
@@ -32,14 +37,19 @@ pub fn reference(path: &Path, stages: usize) -> Result<Reference, CaseError> {
         refused(vec![Mistake { span: error.span(), message: in_words(error.message()), help: None }])
     })?;
     let scalar = |value: Option<Spanned<f64>>| value.map(|value| (value.span(), [value.into_inner(), 0.0]));
-    let vector = given.shift.map(|value| (value.span(), value.into_inner()));
+    let vector = |value: Option<Spanned<[f64; 2]>>| value.map(|value| (value.span(), value.into_inner()));
     let values = [
         (Quantity::MaxPressure, scalar(given.max_pressure)),
         (Quantity::Approach, scalar(given.approach)),
         (Quantity::ContactArea, scalar(given.contact_area)),
         (Quantity::StickArea, scalar(given.stick_area)),
-        (Quantity::Shift, vector),
+        (Quantity::Shift, vector(given.shift)),
         (Quantity::DissipatedEnergy, scalar(given.dissipated_energy)),
+        (Quantity::Creepage, vector(given.creepage)),
+        (Quantity::Spin, scalar(given.spin)),
+        (Quantity::RollingFriction, scalar(given.rolling_friction)),
+        (Quantity::MaxWornDepth, scalar(given.max_worn_depth)),
+        (Quantity::WornVolume, scalar(given.worn_volume)),
     ];
     let mut reference = Reference::nothing(stages);
     let mut mistakes = Vec::new();

@@ -18,6 +18,11 @@ pub fn name(quantity: Quantity, dimension: Dimension) -> &'static str {
         (Quantity::StickArea, Dimension::Line) => "stick width",
         (Quantity::Shift, _) => "shift",
         (Quantity::DissipatedEnergy, _) => "dissipated energy",
+        (Quantity::Creepage, _) => "creepage",
+        (Quantity::Spin, _) => "spin",
+        (Quantity::RollingFriction, _) => "rolling friction",
+        (Quantity::MaxWornDepth, _) => "max worn depth",
+        (Quantity::WornVolume, _) => "worn volume",
     }
 }
 

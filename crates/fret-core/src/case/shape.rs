@@ -11,7 +11,7 @@ use super::surface_file::{
     PyramidFile, RectangularPunchFile, RoundedPunchFile, SphereFile, SpheroConeFile, WaveFile,
     WornSphereFile,
 };
-use super::topography::{self, Content, Measured, Question};
+use super::topography::{self, Content, Measured, Question, Treated};
 use crate::document::At;
 use crate::heights::marks::hole;
 use crate::model::{Axis, Detrend, Heights, Profile, Shape};
@@ -258,9 +258,15 @@ impl Part<'_, '_> {
         measured: Measured,
         (source, sign, detrend): (&str, f64, Detrend),
     ) -> Option<Heights> {
-        let (mut heights, record) = question.treated(self.judge, measured, detrend)?;
-        heights.mapv_inplace(|height| sign * height);
-        match Heights::new(source, heights, Detrend::None) {
+        let (treated, record) = question.treated(self.judge, measured, detrend)?;
+        let heights = match treated {
+            Treated::Cells(heights) => Heights::new(source, sign * heights, Detrend::None),
+            Treated::Surface(mut surface) => {
+                surface.heights *= sign;
+                Heights::resampled(source, surface, question.cells.count)
+            }
+        };
+        match heights {
             Ok(heights) => Some(heights.treated(record)),
             Err(error) => {
                 let message = format!("{}: {error}", question.place);

@@ -15,6 +15,24 @@ pub fn even(count: usize, spacing: f64) -> Vec<f64> {
     (0..count).map(|point| (point as f64 + 0.5) * spacing).collect()
 }
 
+/// A measured surface, and the part of it that a grid covers, however many cells that has.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredSurface {
+    /// Heights of the points, index `[x, y]`.
+    pub heights: Array2<f64>,
+    /// Places of the points along x and y, growing.
+    pub places: [Vec<f64>; 2],
+    /// From where to where the grid lies along x and y.
+    pub window: [Range<f64>; 2],
+}
+
+impl MeasuredSurface {
+    /// Mean height of each of so many cells along x and y.
+    pub fn on(&self, cells: [usize; 2]) -> Array2<f64> {
+        resampled(&self.heights, [&self.places[0], &self.places[1]], &self.window, cells)
+    }
+}
+
 /// Mean height of every cell: that of the surface which is linear between the points (bilinear in two dimensions). `places` are those
 /// of the points along x and y, `window` from where to where the cells lie. A plane stays the same plane.
 pub fn resampled(

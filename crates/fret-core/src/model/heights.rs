@@ -10,6 +10,7 @@ use super::digest::digest;
 use super::shape::ProfileError;
 use super::treatment::Treatment;
 use crate::document::Table;
+use crate::heights::resample::MeasuredSurface;
 
 /// What is subtracted from heights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Table, JsonSchema)]
@@ -30,6 +31,8 @@ pub struct Heights {
     source: String,
     depths: Arc<Depths>,
     treatment: Option<Box<Treatment>>,
+    /// What they are the means of, where any grid can take them from it.
+    surface: Option<Arc<MeasuredSurface>>,
 }
 
 /// Depths below the highest point [length], and a hash of them, found when it is first asked for.
@@ -73,7 +76,40 @@ impl Heights {
         let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         heights.mapv_inplace(|height| highest - height);
         let depths = Depths { values: heights, hash: OnceLock::new() };
-        Ok(Self { source: source.to_owned(), depths: Arc::new(depths), treatment: None })
+        Ok(Self { source: source.to_owned(), depths: Arc::new(depths), treatment: None, surface: None })
+    }
+
+    /// Means of a measured surface over the cells of a grid of so many along x and y; other grids can take theirs from it as well.
+    ///
+    /// # Errors
+    /// As [`Heights::new`].
+    pub fn resampled(
+        source: &str,
+        surface: MeasuredSurface,
+        cells: [usize; 2],
+    ) -> Result<Self, ProfileError> {
+        let means = Self::new(source, surface.on(cells), Detrend::None)?;
+        Ok(Self { surface: Some(Arc::new(surface)), ..means })
+    }
+
+    /// The same surface on other cells of the same place and size; `None` where the heights are those of their cells alone.
+    pub fn on(&self, cells: [usize; 2]) -> Option<Self> {
+        if cells == self.cells() {
+            return Some(self.clone());
+        }
+        let surface = self.surface.clone()?;
+        let means = Self::new(&self.source, surface.on(cells), Detrend::None).ok()?;
+        Some(Self { treatment: self.treatment.clone(), surface: Some(surface), ..means })
+    }
+
+    /// Whether grids of other cells can take theirs from the same surface.
+    pub fn fit_any_cells(&self) -> bool {
+        self.surface.is_some()
+    }
+
+    /// Measured points that are kept beside the cells.
+    pub fn points(&self) -> usize {
+        self.surface.as_ref().map_or(0, |surface| surface.heights.len())
     }
 
     /// The same with the record of what was done to them.

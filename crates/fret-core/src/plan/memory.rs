@@ -1,7 +1,7 @@
 //! How much memory a run takes: the one place of these numbers. `benches/expected_cost.py` sets them beside what runs took.
 
 use crate::case::{Case, StageControl};
-use crate::model::{DebrisRule, SurfaceGrid, Symmetry};
+use crate::model::{DebrisRule, Heights, SurfaceGrid, Symmetry};
 use crate::solver::{Coupling, NUMBERS_OF_CYCLE};
 
 /// Bytes of the process itself.
@@ -85,6 +85,7 @@ pub fn of_run(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Sym
     let evolving = if case.friction_evolution.is_some() { EVOLVING } else { 0 };
     let frictions = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
     let maps = frictions.filter(|friction| friction.is_map()).count() + case.profile.heights.len();
+    let points: usize = case.profile.heights.iter().map(Heights::points).sum();
     let [moving, operator] = if case.kinematics.is_finite() { MOVING } else { [0; 2] };
     let cycle = if case.kinematics.is_finite() { CYCLE } else { 0 };
     let in_front = in_front + remembered + tilt(case) + operator + cycle;
@@ -99,7 +100,7 @@ pub fn of_run(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Sym
     } else {
         0
     };
-    PROCESS + waiting + solving.max(stressed)
+    PROCESS + size_of::<f64>() * points + waiting + solving.max(stressed)
 }
 
 /// Bytes a cell of what tilts in front of the mirrors.

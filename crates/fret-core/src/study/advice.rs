@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::errors::between;
 use super::level::Level;
-use super::quantities::Quantity;
+use super::quantities::{PerQuantity, Quantity};
 use super::reference::{Reference, has_order};
 use super::resolutions::{Kind, Place, Resolutions};
 use crate::case::check::MOST_CELLS;
@@ -36,7 +36,7 @@ const SCATTER: f64 = 1.5;
 pub fn advice<'a>(
     resolutions: &Resolutions,
     level: &impl Fn(Place) -> Option<&'a Level>,
-    judged: &impl Fn(Place) -> Option<[Option<f64>; 6]>,
+    judged: &impl Fn(Place) -> Option<PerQuantity<Option<f64>>>,
     accuracy: f64,
 ) -> Advice {
     let cells_line = resolutions.line(Kind::Cells);
@@ -89,7 +89,7 @@ struct Choice {
 
 /// The smallest count from which on the errors of every quantity stay within a bound; `None` when one of them is not seen to get
 /// there. `errors` of the counts from coarse to fine.
-fn choose(counts: &[usize], errors: &[[Option<f64>; 6]], kind: Kind, bound: f64) -> Option<Choice> {
+fn choose(counts: &[usize], errors: &[PerQuantity<Option<f64>>], kind: Kind, bound: f64) -> Option<Choice> {
     let known = |quantity: &Quantity| errors.iter().any(|errors| errors[*quantity as usize].is_some());
     let of = |quantity: Quantity| {
         let errors: Vec<Option<f64>> = errors.iter().map(|errors| errors[quantity as usize]).collect();
@@ -204,7 +204,7 @@ mod tests {
         let area = Quantity::ContactArea as usize;
         let of = |areas: [f64; 3]| {
             areas.map(|error| {
-                let mut errors = [None; 6];
+                let mut errors = [None; Quantity::ALL.len()];
                 errors[Quantity::MaxPressure as usize] = Some(1e-9);
                 errors[area] = Some(error);
                 errors
@@ -223,7 +223,7 @@ mod tests {
     #[test]
     fn a_level_that_is_its_own_reference_answers_for_the_one_before() {
         let counts = [16, 32, 64];
-        let mut errors = [[None; 6]; 3];
+        let mut errors = [[None; Quantity::ALL.len()]; 3];
         for (errors, shift) in errors.iter_mut().zip([Some(1e-3), Some(1e-3), None]) {
             errors[Quantity::Shift as usize] = shift;
         }

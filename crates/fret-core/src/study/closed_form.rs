@@ -6,9 +6,9 @@
 
 use super::normal_form::{NormalForm, Pressed};
 use super::partial_slip::{Loaded, PartialSlip, TangentialForm};
-use super::quantities::Quantity;
+use super::quantities::{PerQuantity, Quantity};
 use crate::case::{Case, Stage};
-use crate::model::{Control, LoadStep};
+use crate::model::{Control, Frame, LoadStep};
 use crate::plan::{Coupling, Plan};
 
 /// Fraction of the largest force below which a planned force, or its change, is none.
@@ -16,7 +16,7 @@ const NOTHING: f64 = 1e-12;
 
 /// What a closed form says of one stage's end; `None` where it says nothing.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Said([Option<[f64; 2]>; 6]);
+pub struct Said(PerQuantity<Option<[f64; 2]>>);
 
 impl Said {
     /// A quantity of interest, scalars first.
@@ -47,7 +47,9 @@ impl ClosedForm {
     /// The closed form of a plan, where it has one.
     pub fn of(plan: &Plan) -> Option<Self> {
         let case = &plan.case;
-        if case.is_open_ended() || plan.coupling == Coupling::Coupled {
+        // A contact that has rolled over its bodies lies elsewhere on their grid.
+        let lies_elsewhere = case.rolls() && case.kinematics.frame == Frame::Bodies;
+        if case.is_open_ended() || plan.coupling == Coupling::Coupled || lies_elsewhere {
             return None;
         }
         let normal = NormalForm::of(plan)?;
@@ -57,7 +59,9 @@ impl ClosedForm {
         let pressed: Vec<Pressed> = pressed.collect::<Option<_>>()?;
         let mut ends: Vec<Said> = pressed.iter().map(said).collect();
         let last = *pressed.last()?;
-        let shear = if case.is_frictionless() || !case.stages.iter().any(Stage::is_tangential) {
+        let shear = if case.rolls() {
+            None // partial slip of bodies that stay opposite each other says nothing of it
+        } else if case.is_frictionless() || !case.stages.iter().any(Stage::is_tangential) {
             // Without any tangential cause nothing slips and nothing is lost.
             for said in &mut ends {
                 said.say(Quantity::Shift, Some(0.0));

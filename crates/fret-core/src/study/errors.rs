@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::level::Level;
-use super::quantities::{Quantity, StageQuantities};
+use super::quantities::{PerQuantity, Quantity, StageQuantities};
 use super::reference::{NOTHING, Reference};
 use crate::model::Dimension;
 
@@ -33,11 +33,11 @@ impl Form {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Errors {
     /// As the cells have the numbers.
-    pub plain: [Option<f64>; 6],
+    pub plain: PerQuantity<Option<f64>>,
     /// Read between the cells.
-    pub between: [Option<f64>; 6],
+    pub between: PerQuantity<Option<f64>>,
     /// Extrapolated with the coarser level, when there is one.
-    pub extrapolated: [Option<f64>; 6],
+    pub extrapolated: PerQuantity<Option<f64>>,
     /// Pressure.
     pub pressure: Option<f64>,
     /// Shear.
@@ -46,7 +46,7 @@ pub struct Errors {
 
 impl Errors {
     /// Errors of a form.
-    pub fn of(&self, form: Form) -> &[Option<f64>; 6] {
+    pub fn of(&self, form: Form) -> &PerQuantity<Option<f64>> {
         match form {
             Form::Plain => &self.plain,
             Form::Between => &self.between,
@@ -67,7 +67,7 @@ impl Errors {
 
 /// Errors of a level; `coarser` is the level of half the cells, when there is one.
 pub fn errors(reference: &Reference, level: &Level, coarser: Option<&Level>) -> Errors {
-    let extrapolated = coarser.map_or([None; 6], |coarser| {
+    let extrapolated = coarser.map_or([None; Quantity::ALL.len()], |coarser| {
         judged(reference, level, &|end, quantity| match coarser.ends.get(end) {
             Some(coarse) => extrapolated(&level.ends[end], coarse, quantity),
             None => level.ends[end].between(quantity),
@@ -83,7 +83,7 @@ pub fn errors(reference: &Reference, level: &Level, coarser: Option<&Level>) -> 
 }
 
 /// Errors of the quantities of interest of a level alone, read between the cells.
-pub(super) fn between(reference: &Reference, level: &Level) -> [Option<f64>; 6] {
+pub(super) fn between(reference: &Reference, level: &Level) -> PerQuantity<Option<f64>> {
     judged(reference, level, &|end, quantity| level.ends[end].between(quantity))
 }
 
@@ -91,8 +91,8 @@ pub(super) fn between(reference: &Reference, level: &Level) -> [Option<f64>; 6] 
 fn judged(
     reference: &Reference,
     level: &Level,
-    reading: &dyn Fn(usize, Quantity) -> [f64; 2],
-) -> [Option<f64>; 6] {
+    reading: &dyn Fn(usize, Quantity) -> Option<[f64; 2]>,
+) -> PerQuantity<Option<f64>> {
     Quantity::ALL.map(|quantity| {
         (!reference.is_itself(quantity, level))
             .then(|| error(reference, quantity, level.ends.len(), reading))?
@@ -101,15 +101,19 @@ fn judged(
 
 /// A quantity of interest with its error of second order taken off; only pressure and approach have one of a known order and sign, and of a
 /// line contact not even they: two points are its edge, and where they lie between the centres of cells does not even out.
-pub(super) fn extrapolated(fine: &StageQuantities, coarse: &StageQuantities, quantity: Quantity) -> [f64; 2] {
-    let value = fine.between(quantity);
+pub(super) fn extrapolated(
+    fine: &StageQuantities,
+    coarse: &StageQuantities,
+    quantity: Quantity,
+) -> Option<[f64; 2]> {
+    let value = fine.between(quantity)?;
     let factor = coarse.cell_area / fine.cell_area - 1.0;
     match quantity {
         Quantity::MaxPressure | Quantity::Approach if factor > 0.0 && fine.dimension == Dimension::Plane => {
-            let other = coarse.between(quantity);
-            [0, 1].map(|axis| value[axis] + (value[axis] - other[axis]) / factor)
+            let other = coarse.between(quantity)?;
+            Some([0, 1].map(|axis| value[axis] + (value[axis] - other[axis]) / factor))
         }
-        _ => value,
+        _ => Some(value),
     }
 }
 
@@ -117,7 +121,7 @@ fn error(
     reference: &Reference,
     quantity: Quantity,
     ends: usize,
-    reading: &dyn Fn(usize, Quantity) -> [f64; 2],
+    reading: &dyn Fn(usize, Quantity) -> Option<[f64; 2]>,
 ) -> Option<f64> {
     let exact = reference.of(quantity);
     let scaled_by = if quantity == Quantity::StickArea { Quantity::ContactArea } else { quantity };
@@ -128,13 +132,13 @@ fn error(
     let never_sticks = || exact.iter().flatten().all(|[area, _]| *area == 0.0);
     if quantity == Quantity::StickArea
         && never_sticks()
-        && (0..ends).all(|end| reading(end, quantity)[0] == 0.0)
+        && (0..ends).all(|end| reading(end, quantity).is_none_or(|[area, _]| area == 0.0))
     {
         return None; // nothing sticks anywhere: no number to be wrong about
     }
     let apart = |end: usize| {
         let [x, y] = (*exact.get(end)?)?;
-        let [a, b] = reading(end, quantity);
+        let [a, b] = reading(end, quantity)?;
         Some((a - x).hypot(b - y) / scale)
     };
     (0..ends).filter_map(apart).reduce(f64::max)

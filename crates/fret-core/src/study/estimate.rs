@@ -25,6 +25,9 @@ const EDGE: f64 = 0.08;
 const EDGE_OF_LINE: f64 = 0.2;
 /// The same under pyramids, whose contact has corners: of Berkovich and Vickers pyramids on 32 to 64 cells nine err by 0.1 to 0.21 of it.
 const EDGE_WITH_CORNERS: f64 = 0.25;
+/// The same of measured surfaces, whose contact is many spots: of 13 areas of a rough flat and a ball on one, on 48 to 192 cells, four err by
+/// 0.09 to 0.16 of it.
+const EDGE_OF_MEASURED: f64 = 0.25;
 /// Least relative bar over the number of cells in contact: the edge lies anywhere between the cells, so that errors of second
 /// order scatter, and two runs may agree by chance.
 /// Of Hertz contacts of 6 to 18 cells in the radius pressure and approach err by up to 0.37 of it.
@@ -36,6 +39,10 @@ const SCATTER_OF_SHIFT: f64 = 1.0;
 /// The same where shear acts on pressure: of 36 shifts two err by 1.3 and 1.5 of it.
 const SCATTER_OF_COUPLED_SHIFT: f64 = 1.4;
 const SCATTER_OF_ENERGY: f64 = 4.0;
+/// The same of a steady state of rolling.
+const SCATTER_OF_ROLLING: f64 = 0.2;
+/// The same of wear, which is where slip is.
+const SCATTER_OF_WEAR: f64 = 4.0;
 /// Edge of contact where a body ends: it ends at the border of a cell.
 const END_OF_A_BODY: f64 = 0.5;
 /// Edge of what sticks: counted by cells, in steps of the load.
@@ -49,6 +56,8 @@ const STICK: f64 = 1.55;
 const SHIFT: f64 = 1.0;
 const ENERGY: f64 = 1.65;
 const CUSP: f64 = 3.5;
+/// The same of a steady state of rolling, which goes on by a cell: of first order.
+const ROLLING: f64 = 2.5;
 /// Factor on these for increments of first order.
 const END_POINTS: f64 = 2.5;
 
@@ -68,14 +77,14 @@ pub struct Bar {
 pub struct Bars {
     /// Number of the stage, from 0.
     pub stage: usize,
-    /// The numbers.
-    pub bars: [Bar; 6],
+    /// The numbers that the stage has.
+    pub bars: Vec<Bar>,
 }
 
 impl Bars {
-    /// A number with its bar.
-    pub fn of(&self, quantity: Quantity) -> Bar {
-        self.bars[quantity as usize]
+    /// A number with its bar; `None` where the stage has no such number.
+    pub fn of(&self, quantity: Quantity) -> Option<Bar> {
+        self.bars.iter().find(|bar| bar.quantity == quantity).copied()
     }
 }
 
@@ -120,19 +129,18 @@ pub fn resolved(end: &StageQuantities) -> Result<(), ResolutionError> {
 /// both have reached and that end [`resolved`].
 pub fn error_bars(plan: &Plan, fine: &[StageQuantities], coarse: &[StageQuantities]) -> Vec<Bars> {
     let scene = Scene::of(plan);
-    let mut largest = [0.0_f64; 6];
+    let mut largest = [0.0_f64; Quantity::ALL.len()];
     let mut bars = Vec::new();
     for end in fine {
         for (largest, quantity) in largest.iter_mut().zip(Quantity::ALL) {
-            let [x, y] = end.between(quantity);
-            *largest = largest.max(x.hypot(y));
+            *largest = end.between(quantity).map_or(*largest, |[x, y]| largest.max(x.hypot(y)));
         }
         if resolved(end).is_err() {
             continue;
         }
         if let Some(other) = coarse.iter().find(|other| other.stage == end.stage) {
             let bar = |quantity: Quantity| scene.bar(quantity, end, other, largest[quantity as usize]);
-            bars.push(Bars { stage: end.stage, bars: Quantity::ALL.map(bar) });
+            bars.push(Bars { stage: end.stage, bars: Quantity::ALL.into_iter().filter_map(bar).collect() });
         }
     }
     bars
@@ -142,6 +150,8 @@ pub fn error_bars(plan: &Plan, fine: &[StageQuantities], coarse: &[StageQuantiti
 struct Scene {
     /// Surfaces without edges and tips.
     is_smooth: bool,
+    /// Measured surfaces, of which finer cells show more.
+    is_measured: bool,
     /// A body ends where the contact ends.
     ends: bool,
     /// The contact has corners.
@@ -162,10 +172,11 @@ impl Scene {
     fn of(plan: &Plan) -> Self {
         let shapes = &plan.case.profile.shapes;
         let ends = shapes.iter().any(super::unbounded::ends);
+        let is_measured = !plan.case.profile.heights.is_empty();
+        let is_smooth = |shape: &Shape| shape.curvatures().is_some() || matches!(shape, Shape::Wave { .. });
         Self {
-            is_smooth: shapes
-                .iter()
-                .all(|shape| shape.curvatures().is_some() || matches!(shape, Shape::Wave { .. })),
+            is_smooth: !is_measured && shapes.iter().all(is_smooth),
+            is_measured,
             ends,
             has_corners: shapes.iter().any(|shape| matches!(shape, Shape::Pyramid { .. })),
             is_pointed: pressure_is_unbounded(shapes),
@@ -178,14 +189,22 @@ impl Scene {
     }
 
     /// A number with its bar; `largest` is the most it has been so far.
-    fn bar(&self, quantity: Quantity, fine: &StageQuantities, coarse: &StageQuantities, largest: f64) -> Bar {
-        let (value, other) = (fine.between(quantity), coarse.between(quantity));
+    fn bar(
+        &self,
+        quantity: Quantity,
+        fine: &StageQuantities,
+        coarse: &StageQuantities,
+        largest: f64,
+    ) -> Option<Bar> {
+        let (value, other) = (fine.between(quantity)?, coarse.between(quantity)?);
         let apart = (value[0] - other[0]).hypot(value[1] - other[1]);
         let area = fine.contact_area.max(fine.cell_area);
         let scatter = match quantity {
             Quantity::Shift if self.is_coupled => SCATTER_OF_COUPLED_SHIFT,
             Quantity::Shift => SCATTER_OF_SHIFT,
             Quantity::DissipatedEnergy => SCATTER_OF_ENERGY,
+            Quantity::Creepage | Quantity::Spin | Quantity::RollingFriction => SCATTER_OF_ROLLING,
+            Quantity::MaxWornDepth | Quantity::WornVolume => SCATTER_OF_WEAR,
             Quantity::MaxPressure if self.is_coupled => SCATTER_OF_COUPLED_PEAK,
             _ => SCATTER,
         };
@@ -200,16 +219,18 @@ impl Scene {
             Quantity::MaxPressure | Quantity::Approach
                 if self.is_smooth && !self.is_coupled && self.dimension == Dimension::Plane =>
             {
-                (extrapolated(fine, coarse, quantity), Some(least.max(SECOND_ORDER * apart)))
+                (extrapolated(fine, coarse, quantity)?, Some(least.max(SECOND_ORDER * apart)))
             }
             Quantity::ContactArea => {
                 let edge = match self.dimension {
                     _ if self.ends => END_OF_A_BODY,
                     _ if self.has_corners => EDGE_WITH_CORNERS,
+                    _ if self.is_measured => EDGE_OF_MEASURED,
                     Dimension::Plane => EDGE,
                     Dimension::Line => EDGE_OF_LINE,
                 };
-                (value, Some(edge * fine.contact_edge))
+                let of_peaks = if self.is_measured { UNKNOWN_ORDER * apart } else { 0.0 };
+                (value, Some((edge * fine.contact_edge).max(of_peaks)))
             }
             Quantity::StickArea => {
                 // What sticks may be a cell that no cell shows.
@@ -218,14 +239,15 @@ impl Scene {
             }
             _ => {
                 let share = match quantity {
-                    Quantity::MaxPressure if self.is_coupled => CUSP,
+                    Quantity::MaxPressure if self.is_coupled || self.is_measured => CUSP,
                     Quantity::Shift if self.is_coupled => SHIFT,
                     Quantity::DissipatedEnergy if self.is_coupled => ENERGY,
+                    Quantity::Creepage | Quantity::Spin | Quantity::RollingFriction => ROLLING,
                     _ => UNKNOWN_ORDER,
                 };
                 (value, Some(least.max(increments * share * apart)))
             }
         };
-        Bar { quantity, value, bar }
+        Some(Bar { quantity, value, bar })
     }
 }

@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use ndarray::Array2;
 use serde::Serialize;
 
+use super::resolutions::only_one_grid;
 use super::variation::Variation;
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
 use crate::fields::largest;
@@ -180,12 +181,13 @@ fn counts(plan: &Plan, habit: &Habit) -> Counts {
     })
 }
 
-/// The case on few cells; as it is where it has no other grid and is small.
+/// The case on few cells; as it is where it is small and has no other grid, or a measured surface, of which few cells say little.
 fn trial(plan: &Plan) -> Option<Plan> {
     let own = Variation::of(plan);
     let [nx, ny] = own.cells;
     let shrinking = (nx.max(ny) as f64 / COARSE as f64).max(1.0);
-    let cells = if plan.grid.len() > SMALL && super::resolutions::only_one_grid(plan).is_ok() {
+    let has_other_grids = plan.case.profile.heights.is_empty() && only_one_grid(plan).is_ok();
+    let cells = if plan.grid.len() > SMALL && has_other_grids {
         own.cells.map(|side| ((side as f64 / shrinking).round() as usize).max(4).min(side))
     } else {
         own.cells

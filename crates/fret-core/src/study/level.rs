@@ -6,7 +6,7 @@ use std::time::Instant;
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
-use super::quantities::StageQuantities;
+use super::quantities::{QuantityReader, StageQuantities};
 use super::variation::Variation;
 use crate::fields::stored;
 use crate::history::{CycleRecord, KeptFields, StepRecord, Work};
@@ -41,7 +41,7 @@ pub struct Level {
 /// As [`Simulation::run`].
 pub fn solved_level(plan: &Plan, observer: &mut dyn Observer) -> Result<Level, RunError> {
     let started = Instant::now();
-    let mut reader = Reader { grid: plan.grid, ends: Vec::new(), observer };
+    let mut reader = Reader { quantities: QuantityReader::of(plan), ends: Vec::new(), observer };
     let history = Simulation::new(plan).run(&mut reader)?;
     let ends = reader.ends;
     let work = history.work();
@@ -58,7 +58,7 @@ pub fn solved_level(plan: &Plan, observer: &mut dyn Observer) -> Result<Level, R
 
 /// Reads quantities of interest of the last increment of every stage, whenever that comes.
 struct Reader<'a> {
-    grid: SurfaceGrid,
+    quantities: QuantityReader,
     ends: Vec<StageQuantities>,
     observer: &'a mut dyn Observer,
 }
@@ -85,7 +85,7 @@ impl Observer for Reader<'_> {
         if self.ends.last().is_some_and(|end| end.stage == record.stage) {
             self.ends.pop();
         }
-        self.ends.push(StageQuantities::new(&self.grid, record, state));
+        self.ends.push(self.quantities.read(record, state));
         self.observer.solved(record, state, kept)
     }
 }

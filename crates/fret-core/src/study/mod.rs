@@ -32,7 +32,7 @@ pub use level::{Level, solved_level};
 pub use normal_form::{NormalForm, Pressed};
 pub use partial_slip::{Loaded, PartialSlip, TangentialForm};
 pub use peak::peak_pressure;
-pub use quantities::{Quantity, StageQuantities};
+pub use quantities::{PerQuantity, Quantity, QuantityReader, StageQuantities};
 pub use reference::{Convergence, Reference, Source};
 pub use refinement_study::{Judged, Line, RefinementStudy};
 pub use resolutions::{Kind, Place, ResolutionError, Resolutions};

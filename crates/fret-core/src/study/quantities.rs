@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::peak::peak_pressure_in_front;
 use crate::history::{StepRecord, faces_between};
 use crate::model::{ContactState, Dimension, MirroredState, SurfaceGrid, Symmetry, Zone};
+use crate::plan::Plan;
 
 /// A quantity of interest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -23,18 +24,41 @@ pub enum Quantity {
     Shift,
     /// Energy dissipated by friction since the start [force x length].
     DissipatedEnergy,
+    /// Creepage of a contact that rolls on steadily [-], x and y.
+    Creepage,
+    /// Spin of the same [rad/length].
+    Spin,
+    /// Energy that friction dissipates in it by distance rolled [force].
+    RollingFriction,
+    /// Largest worn depth [length].
+    MaxWornDepth,
+    /// Volume worn off since the start [length^3].
+    WornVolume,
 }
+
+/// Something of each quantity of interest, in the order of [`Quantity::ALL`].
+pub type PerQuantity<T> = [T; Quantity::ALL.len()];
 
 impl Quantity {
     /// All of them, in the order of tables.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 11] = [
         Self::MaxPressure,
         Self::Approach,
         Self::ContactArea,
         Self::StickArea,
         Self::Shift,
         Self::DissipatedEnergy,
+        Self::Creepage,
+        Self::Spin,
+        Self::RollingFriction,
+        Self::MaxWornDepth,
+        Self::WornVolume,
     ];
+
+    /// Whether it has two components, along x and y.
+    pub fn has_components(self) -> bool {
+        matches!(self, Self::Shift | Self::Creepage)
+    }
 
     /// Its name in files.
     pub fn name(self) -> &'static str {
@@ -45,6 +69,11 @@ impl Quantity {
             Self::StickArea => "stick_area",
             Self::Shift => "shift",
             Self::DissipatedEnergy => "dissipated_energy",
+            Self::Creepage => "creepage",
+            Self::Spin => "spin",
+            Self::RollingFriction => "rolling_friction",
+            Self::MaxWornDepth => "max_worn_depth",
+            Self::WornVolume => "worn_volume",
         }
     }
 }
@@ -73,10 +102,26 @@ pub struct StageQuantities {
     pub contact_area: f64,
     /// Area that sticks [length^2]: the share of the cells in contact that stick, times the contact area.
     pub stick_area: f64,
-    /// Rigid tangential displacement of the upper body [length].
-    pub shift: [f64; 2],
-    /// Energy dissipated by friction since the start [force x length].
-    pub dissipated_energy: f64,
+    /// Rigid tangential displacement of the upper body [length]; `None` from a steady state of rolling on, whose one increment is as
+    /// long as a cell.
+    pub shift: Option<[f64; 2]>,
+    /// Energy dissipated by friction since the start [force x length], likewise.
+    pub dissipated_energy: Option<f64>,
+    /// Creepage along x and y [-] of a contact that rolls on steadily.
+    #[serde(default)]
+    pub creepage: Option<[f64; 2]>,
+    /// Its spin [rad/length]; `None` where there is none.
+    #[serde(default)]
+    pub spin: Option<f64>,
+    /// Energy that friction dissipates in it by distance rolled [force].
+    #[serde(default)]
+    pub rolling_friction: Option<f64>,
+    /// Largest worn depth [length], where surfaces wear.
+    #[serde(default)]
+    pub max_worn_depth: Option<f64>,
+    /// Volume worn off since the start [length^3], where surfaces wear.
+    #[serde(default)]
+    pub worn_volume: Option<f64>,
     /// The same from the cells alone.
     pub plain: Plain,
     /// Area of the cells along the edge of contact [length^2], about its length times the side of a cell.
@@ -92,20 +137,46 @@ pub struct StageQuantities {
     pub radius_cells: Option<f64>,
 }
 
-impl StageQuantities {
+/// Reads quantities of interest off the increments of a run.
+#[derive(Debug, Clone, Copy)]
+pub struct QuantityReader {
+    grid: SurfaceGrid,
+    /// The first stage that rolls on to a steady state.
+    steady_from: Option<usize>,
+    /// Whether surfaces wear.
+    wears: bool,
+}
+
+impl QuantityReader {
+    /// For the run of a plan.
+    pub fn of(plan: &Plan) -> Self {
+        Self {
+            grid: plan.grid,
+            steady_from: plan.case.stages.iter().position(|stage| stage.steady),
+            wears: plan.case.wear.is_some(),
+        }
+    }
+
     /// Quantities of interest of a solved increment.
-    pub fn new(grid: &SurfaceGrid, record: &StepRecord, state: MirroredState<'_>) -> Self {
+    pub fn read(&self, record: &StepRecord, state: MirroredState<'_>) -> StageQuantities {
+        let grid = &self.grid;
+        let is_steady = self.steady_from.is_some_and(|first| record.stage >= first);
         let MirroredState { part: ContactState { pressure, zone, .. }, symmetry } = state;
         let cell = grid.cell_area();
         let edge = |is_within: fn(&Zone) -> bool| cell * edge_cells(zone, symmetry, is_within);
-        Self {
+        StageQuantities {
             stage: record.stage,
             max_pressure: peak_pressure_in_front(pressure, symmetry),
             approach: record.approach,
             contact_area: record.contact_area,
             stick_area: record.stick_area,
-            shift: record.shift,
-            dissipated_energy: record.dissipated_energy,
+            shift: (!is_steady).then_some(record.shift),
+            dissipated_energy: (!is_steady).then_some(record.dissipated_energy),
+            creepage: record.creepage.filter(|_| is_steady),
+            spin: record.spin.filter(|spin| is_steady && *spin != 0.0),
+            rolling_friction: record.rolling_friction.filter(|_| is_steady),
+            max_worn_depth: self.wears.then_some(record.max_worn_depth),
+            worn_volume: self.wears.then_some(record.worn_volume),
             plain: Plain {
                 max_pressure: record.max_pressure,
                 contact_area: record.contact_cells as f64 * cell,
@@ -118,25 +189,33 @@ impl StageQuantities {
             radius_cells: record.footprint.radius,
         }
     }
+}
 
-    /// A number read between the cells; scalars first, then zero.
-    pub fn between(&self, quantity: Quantity) -> [f64; 2] {
-        match quantity {
-            Quantity::MaxPressure => [self.max_pressure, 0.0],
-            Quantity::Approach => [self.approach, 0.0],
-            Quantity::ContactArea => [self.contact_area, 0.0],
-            Quantity::StickArea => [self.stick_area, 0.0],
-            Quantity::Shift => self.shift,
-            Quantity::DissipatedEnergy => [self.dissipated_energy, 0.0],
-        }
+impl StageQuantities {
+    /// A number read between the cells; scalars first, then zero. `None` where the stage has no such number.
+    pub fn between(&self, quantity: Quantity) -> Option<[f64; 2]> {
+        let scalar = match quantity {
+            Quantity::MaxPressure => Some(self.max_pressure),
+            Quantity::Approach => Some(self.approach),
+            Quantity::ContactArea => Some(self.contact_area),
+            Quantity::StickArea => Some(self.stick_area),
+            Quantity::Shift => return self.shift,
+            Quantity::DissipatedEnergy => self.dissipated_energy,
+            Quantity::Creepage => return self.creepage,
+            Quantity::Spin => self.spin,
+            Quantity::RollingFriction => self.rolling_friction,
+            Quantity::MaxWornDepth => self.max_worn_depth,
+            Quantity::WornVolume => self.worn_volume,
+        };
+        Some([scalar?, 0.0])
     }
 
-    /// A number as the cells have it.
-    pub fn plain(&self, quantity: Quantity) -> [f64; 2] {
+    /// A number as the cells have it, likewise.
+    pub fn plain(&self, quantity: Quantity) -> Option<[f64; 2]> {
         match quantity {
-            Quantity::MaxPressure => [self.plain.max_pressure, 0.0],
-            Quantity::ContactArea => [self.plain.contact_area, 0.0],
-            Quantity::StickArea => [self.plain.stick_area, 0.0],
+            Quantity::MaxPressure => Some([self.plain.max_pressure, 0.0]),
+            Quantity::ContactArea => Some([self.plain.contact_area, 0.0]),
+            Quantity::StickArea => Some([self.plain.stick_area, 0.0]),
             other => self.between(other),
         }
     }

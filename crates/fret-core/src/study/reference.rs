@@ -8,7 +8,7 @@ use super::closed_form::ClosedForm;
 use super::level::Level;
 use super::limit::{Heading, heading};
 use super::means;
-use super::quantities::{Quantity, StageQuantities};
+use super::quantities::{PerQuantity, Quantity};
 use super::resolutions::{Kind, Place, Resolutions};
 use crate::model::{Dimension, SurfaceGrid};
 
@@ -50,8 +50,8 @@ pub enum Convergence {
 #[derive(Debug, Clone)]
 pub struct Reference {
     /// For each quantity of interest its values at the end of each stage, and where they come from; `None` where nothing is known.
-    numbers: [(Vec<Option<[f64; 2]>>, Source); 6],
-    convergence: [Convergence; 6],
+    numbers: PerQuantity<(Vec<Option<[f64; 2]>>, Source)>,
+    convergence: PerQuantity<Convergence>,
     form: Option<ClosedForm>,
     finest: Option<Fields>,
 }
@@ -72,7 +72,7 @@ impl Reference {
         };
         Self {
             numbers: Quantity::ALL.map(of),
-            convergence: [Convergence::Observed; 6],
+            convergence: [Convergence::Observed; Quantity::ALL.len()],
             form: Some(form),
             finest: None,
         }
@@ -80,13 +80,17 @@ impl Reference {
 
     /// The finest level of a solved study.
     pub fn finest(finest: &Level) -> Self {
+        // What a history does not end with, as the shift of one that ends by rolling on steadily, is nothing to judge it by.
+        let ends_with = |quantity| finest.ends.last().is_some_and(|end| end.between(quantity).is_some());
         let of = |quantity: Quantity| {
-            (finest.ends.iter().map(|end| Some(end.between(quantity))).collect(), Source::Finest)
+            let is_told = ends_with(quantity);
+            let values = finest.ends.iter().map(|end| end.between(quantity).filter(|_| is_told));
+            (values.collect(), Source::Finest)
         };
         let fields = Some(Fields::of(finest));
         Self {
             numbers: Quantity::ALL.map(of),
-            convergence: [Convergence::Observed; 6],
+            convergence: [Convergence::Observed; Quantity::ALL.len()],
             form: None,
             finest: fields,
         }
@@ -121,8 +125,7 @@ impl Reference {
                     for (axis, part) in value.iter_mut().enumerate() {
                         let along: Vec<f64> = levels
                             .iter()
-                            .filter_map(|level| level.ends.get(end))
-                            .map(|end: &StageQuantities| end.between(quantity)[axis])
+                            .filter_map(|level| Some(level.ends.get(end)?.between(quantity)?[axis]))
                             .collect();
                         let (missing, shown) = match heading(counts, &along, order, noise) {
                             Heading::Alone => continue,
@@ -191,7 +194,7 @@ impl Reference {
     pub fn nothing(stages: usize) -> Self {
         Self {
             numbers: std::array::from_fn(|_| (vec![None; stages], Source::Given)),
-            convergence: [Convergence::Observed; 6],
+            convergence: [Convergence::Observed; Quantity::ALL.len()],
             form: None,
             finest: None,
         }
@@ -207,14 +210,18 @@ impl Reference {
         self.of(quantity).iter().flatten().map(|[x, y]| x.hypot(*y)).reduce(f64::max)
     }
 
-    /// What a shift or an energy is none beside, if it is as small as rounding leaves it in a symmetric case.
+    /// What a motion, an energy or wear is none beside, if it is as small as rounding leaves it in a symmetric case.
     pub(super) fn beside(&self, quantity: Quantity) -> Option<f64> {
-        let approach = self.largest(Quantity::Approach)?;
+        let approach = || self.largest(Quantity::Approach);
+        let area = || self.largest(Quantity::ContactArea);
+        let force = || Some(self.largest(Quantity::MaxPressure)? * area()?);
         match quantity {
-            Quantity::Shift => Some(approach),
-            Quantity::DissipatedEnergy => {
-                Some(approach * self.largest(Quantity::MaxPressure)? * self.largest(Quantity::ContactArea)?)
-            }
+            Quantity::Shift | Quantity::MaxWornDepth => approach(),
+            Quantity::DissipatedEnergy => Some(approach()? * force()?),
+            Quantity::Creepage => Some(1.0),
+            Quantity::Spin => Some(area()?.sqrt().recip()), // none in a line contact, whose area is a width
+            Quantity::RollingFriction => force(),
+            Quantity::WornVolume => Some(approach()? * area()?),
             _ => None,
         }
     }

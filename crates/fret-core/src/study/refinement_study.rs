@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::advice::{Advice, advice, frontier};
 use super::errors::{Errors, Form, between, errors, orders};
 use super::level::Level;
-use super::quantities::Quantity;
+use super::quantities::{PerQuantity, Quantity};
 use super::reference::{Convergence, Reference, Source, has_order};
 use super::resolutions::{Kind, Place, Resolutions};
 
@@ -25,7 +25,7 @@ pub struct Judged {
     pub errors: Errors,
     /// Orders its quantities of interest, read between the cells, show against the level before it in the line; areas have none
     /// over the cells, nor has a quantity whose limit was not found from an observed order.
-    pub orders: [Option<f64>; 6],
+    pub orders: PerQuantity<Option<f64>>,
     /// The same of pressure and shear in the mean square.
     pub field_orders: [Option<f64>; 2],
     /// Whether no level of the study takes less work and is closer, by the worst quantity of interest in the order of [`Form::ALL`].

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::variation::{Variation, fewest, rows};
 use crate::case::check::{FEWEST_CELLS as FEWEST_OF_A_CASE, MOST_CELLS, MOST_CELLS_IN_ALL};
 use crate::history::concern::CELLS_IN_RADIUS;
+use crate::model::Heights;
 use crate::plan::{Coupling, Plan};
 
 /// Fewest cells per side of a level that was not given.
@@ -56,9 +57,15 @@ pub enum ResolutionError {
          smaller grid (size = \"auto\" finds it)"
     )]
     FewCells(f64),
-    /// Surfaces or friction given cell by cell.
-    #[error("{0} are given for every cell of one grid, and another grid has other cells")]
-    EachCell(&'static str),
+    /// Heights given cell by cell.
+    #[error(
+        "heights are given for every cell of one grid, and another grid has other cells; with resample = \"linear\" and the size of the \
+         scan any grid takes its heights from the measured surface"
+    )]
+    Heights,
+    /// Friction given cell by cell.
+    #[error("friction coefficients are given for every cell of one grid, and another grid has other cells")]
+    Friction,
 }
 
 /// Place of a level: numbers of its cells, increments and tolerance in the lists of the study.
@@ -224,15 +231,15 @@ impl Resolutions {
 /// Whether a scene can be put on another grid.
 ///
 /// # Errors
-/// When heights or friction are given for every cell.
+/// When heights or friction are given for every cell, and heights are not resampled.
 pub(super) fn only_one_grid(plan: &Plan) -> Result<(), ResolutionError> {
     let case = &plan.case;
-    if !case.profile.heights.is_empty() {
-        return Err(ResolutionError::EachCell("heights"));
+    if !case.profile.heights.iter().all(Heights::fit_any_cells) {
+        return Err(ResolutionError::Heights);
     }
     let mut laws = case.stages.iter().filter_map(|stage| stage.friction.as_ref());
     if case.friction.is_map() || laws.any(crate::model::CoulombFriction::is_map) {
-        return Err(ResolutionError::EachCell("friction coefficients"));
+        return Err(ResolutionError::Friction);
     }
     Ok(())
 }

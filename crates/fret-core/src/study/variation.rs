@@ -13,6 +13,9 @@ pub enum VariationError {
     /// No such grid.
     #[error(transparent)]
     Grid(#[from] GridError),
+    /// Heights of the cells of one grid.
+    #[error("heights that are given for every cell of one grid have no values on other cells")]
+    Heights,
     /// Not enough memory.
     #[error(transparent)]
     Memory(#[from] MemoryError),
@@ -56,7 +59,7 @@ impl Variation {
     /// The same scene on the same grid area at this resolution, keeping no fields. The plan's size is not judged again.
     ///
     /// # Errors
-    /// When a side has no cells, or there is no memory to plan so many.
+    /// When a side has no cells, heights are those of other cells alone, or there is no memory to plan so many.
     pub fn planned(&self, plan: &Plan) -> Result<Plan, VariationError> {
         let size = plan.grid.size();
         let spacing = [size[0] / self.cells[0] as f64, size[1] / self.cells[1] as f64]; // of a line contact the second is not looked at
@@ -66,6 +69,9 @@ impl Variation {
         case.cells = self.cells;
         case.size = GridSize::Given(varied.grid.size());
         case.tolerance = self.tolerance;
+        for heights in &mut case.profile.heights {
+            *heights = heights.on(self.cells).ok_or(VariationError::Heights)?;
+        }
         case.output.fields.clear();
         case.output.every = None;
         case.stress = None;

@@ -12,3 +12,4 @@ mod treated;
 pub(super) use content::{Content, FILL, content};
 pub(super) use question::{Measured, Question};
 pub use scan::Scan;
+pub(super) use treated::Treated;

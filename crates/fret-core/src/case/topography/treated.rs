@@ -9,17 +9,26 @@ use super::question::{Measured, Question, SPACING};
 use crate::case::arrays::Cells;
 use crate::case::judge::Judge;
 use crate::heights::points;
+use crate::heights::resample::MeasuredSurface;
 use crate::heights::{fill, gaussian, resample};
 use crate::model::{Detrend, Treatment};
 
+/// Heights after all that is done to them.
+pub(in crate::case) enum Treated {
+    /// One for every cell.
+    Cells(Array2<f64>),
+    /// A surface that any grid takes its heights from.
+    Surface(MeasuredSurface),
+}
+
 impl Question<'_> {
-    /// The heights of the cells, after all that the case asks for, and the record of it.
+    /// The heights after all that the case asks for, and the record of it.
     pub fn treated(
         &self,
         judge: &mut Judge,
         mut measured: Measured,
         detrend: Detrend,
-    ) -> Option<(Array2<f64>, Treatment)> {
+    ) -> Option<(Treated, Treatment)> {
         let [nx, ny] = measured.points();
         let (read_by, size) = (measured.read_by.take(), measured.size);
         let mut record = Treatment { read_by, points: [nx, ny], size, ..Treatment::default() };
@@ -40,11 +49,10 @@ impl Question<'_> {
         self.filtered(judge, &mut measured, &mut record)?;
         if self.keys.resamples() {
             record.resample = Some("linear".to_owned());
-            measured.heights = self.resampled(judge, &measured)?;
-        } else {
-            self.are_cells(judge, &measured)?;
+            return Some((Treated::Surface(self.surface(judge, measured)?), record));
         }
-        Some((measured.heights, record))
+        self.are_cells(judge, &measured)?;
+        Some((Treated::Cells(measured.heights), record))
     }
 
     /// Refuses what needs even points, of points that are not.
@@ -165,8 +173,8 @@ impl Question<'_> {
         Some(())
     }
 
-    /// Heights of the cells of the grid, which lies in the middle of the scan.
-    fn resampled(&self, judge: &mut Judge, measured: &Measured) -> Option<Array2<f64>> {
+    /// The surface that the cells of the grid are taken from, which lies in the middle of the scan.
+    fn surface(&self, judge: &mut Judge, measured: Measured) -> Option<MeasuredSurface> {
         let size = self.size_for(judge, "resample", measured.size)?;
         let Some(grid) = self.cells.size else {
             return self.refuse(judge, "resample: grid.size must be given", "grid.size = [x, y]");
@@ -178,8 +186,7 @@ impl Question<'_> {
         }
         let counts = measured.points();
         let is_uneven = measured.places.is_some();
-        let x =
-            measured.places.clone().unwrap_or_else(|| resample::even(counts[0], size[0] / counts[0] as f64));
+        let x = measured.places.unwrap_or_else(|| resample::even(counts[0], size[0] / counts[0] as f64));
         let y = resample::even(counts[1], size[1] / counts[1] as f64);
         let begin = if is_uneven { x.first().copied().unwrap_or_default() } else { 0.0 };
         let window = |axis: usize, begin: f64| {
@@ -188,7 +195,7 @@ impl Question<'_> {
             from..from + side
         };
         let window = [window(0, begin), window(1, 0.0)];
-        Some(resample::resampled(&measured.heights, [&x, &y], &window, self.cells.count))
+        Some(MeasuredSurface { heights: measured.heights, places: [x, y], window })
     }
 
     /// Refuses points that are not the cells of the grid.
