@@ -1,5 +1,6 @@
 //! Error bars of a run: a companion at half the cells and increments is solved after it, and both are compared.
 
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::fmt::Write;
 
@@ -7,6 +8,7 @@ use fret_core::model::Dimension;
 use fret_core::plan::{Coupling, Plan};
 use fret_core::run::Observer;
 use fret_core::study::{Bar, Bars, Quantity, StageQuantities, error_bars, resolved, solved_level};
+use serde::Deserialize;
 use serde_json::{Value, json};
 
 use crate::defect;
@@ -45,6 +47,54 @@ pub struct Estimate {
     rubs: bool,
 }
 
+/// A number of the estimate, at the ends of some stages.
+#[derive(Debug)]
+pub struct BarRow {
+    /// Its name.
+    pub name: String,
+    /// The kind of its unit.
+    pub kind: &'static str,
+    /// Its values with their bars; no bar: it has no limit.
+    pub cells: Vec<(f64, Option<f64>)>,
+}
+
+/// Error bars as their file holds them, see [`Estimate::to_json`].
+#[derive(Debug, Deserialize)]
+pub struct BarsRecord {
+    auxiliary: Auxiliary,
+    stages: Vec<StageBars>,
+}
+
+#[derive(Debug, Deserialize)]
+struct Auxiliary {
+    cells: [usize; 2],
+    increments: usize,
+    wall_s: f64,
+}
+
+#[derive(Debug, Deserialize)]
+struct StageBars {
+    stage: usize,
+    #[serde(rename = "name")]
+    _name: String,
+    #[serde(flatten)]
+    numbers: BTreeMap<String, NumberWithBar>,
+}
+
+#[derive(Debug, Deserialize)]
+struct NumberWithBar {
+    value: Told,
+    error_bar: Option<f64>,
+}
+
+/// A number, or one along x and y.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(untagged)]
+enum Told {
+    One(f64),
+    Both([f64; 2]),
+}
+
 impl Estimate {
     /// Solves the companion of a solved plan, whose own quantities of interest are `stage_quantities`, and compares. The reason where that
     /// is not possible: the run itself is none the worse for it.
@@ -79,40 +129,90 @@ impl Estimate {
         })
     }
 
-    /// The numbers with their bars, a column a stage.
-    pub fn table(&self, stage_name: impl Fn(usize) -> String) -> String {
-        let shown = &self.bars[self.bars.len().saturating_sub(MOST_COLUMNS)..];
-        let mut table = String::new();
-        let mut row = |name: &str, cell: &dyn Fn(&Bars) -> String| {
-            side_by_side(&mut table, name, COLUMN, shown.iter().map(cell));
+    /// An estimate of a file; `None` where a number is missing. Which stages have no bars, and why, is not told there. `rubs`: there is friction
+    /// to speak of.
+    pub fn read_back(record: &BarsRecord, rubs: bool) -> Option<Self> {
+        let bar = |stage: &StageBars, quantity: Quantity| {
+            let number = stage.numbers.get(quantity.name())?;
+            let value = match number.value {
+                Told::Both(both) => both,
+                Told::One(one) => [one, 0.0],
+            };
+            Some(Bar { quantity, value, bar: number.error_bar })
         };
-        row("error bars, at the end of", &|bars| shortened(&stage_name(bars.stage), COLUMN - 2));
+        let bars = |stage: &StageBars| {
+            let bars: Option<Vec<Bar>> =
+                Quantity::ALL.into_iter().map(|quantity| bar(stage, quantity)).collect();
+            Some(Bars { stage: stage.stage, bars: bars?.try_into().ok()? })
+        };
+        Some(Self {
+            bars: record.stages.iter().map(bars).collect::<Option<_>>()?,
+            cells: record.auxiliary.cells,
+            increments: record.auxiliary.increments,
+            wall_s: record.auxiliary.wall_s,
+            unresolved: Vec::new(),
+            rubs,
+        })
+    }
+
+    /// The numbers with their bars, a row a number, for the ends of some stages.
+    pub fn rows(&self, shown: &[Bars]) -> Vec<BarRow> {
         let dimension = Dimension::of(self.cells);
+        let row = |name: &str, kind, cell: &dyn Fn(&Bars) -> (f64, Option<f64>)| BarRow {
+            name: name.to_owned(),
+            kind,
+            cells: shown.iter().map(cell).collect(),
+        };
+        let mut rows = Vec::new();
         for quantity in Quantity::ALL {
-            let scalar = |bars: &Bars| number(&bars.of(quantity), 0);
+            let scalar = |bars: &Bars| {
+                let bar = bars.of(quantity);
+                (bar.value[0], bar.bar)
+            };
+            let kind = match quantity {
+                Quantity::MaxPressure => "pressure",
+                Quantity::Approach | Quantity::Shift => "length",
+                Quantity::ContactArea | Quantity::StickArea => "length^2",
+                Quantity::DissipatedEnergy => "force x length",
+            };
             match quantity {
                 Quantity::StickArea | Quantity::Shift | Quantity::DissipatedEnergy if !self.rubs => {}
                 Quantity::Shift => {
                     for (axis, direction) in ["x", "y"].into_iter().enumerate() {
-                        row(&format!("shift {direction}"), &|bars| {
+                        rows.push(row(&format!("shift {direction}"), kind, &|bars| {
                             shift(&bars.of(quantity), axis, bars.of(Quantity::Approach).value[0])
-                        });
+                        }));
                     }
                 }
                 Quantity::ContactArea if dimension == Dimension::Plane => {
-                    row(name(quantity, dimension), &scalar);
-                    row("radius of a circle of that area", &|bars| radius(&bars.of(quantity)));
+                    rows.push(row(name(quantity, dimension), kind, &scalar));
+                    let radius = |bars: &Bars| radius(&bars.of(quantity));
+                    rows.push(row("radius of a circle of that area", "length", &radius));
                 }
-                _ => row(name(quantity, dimension), &scalar),
+                _ => rows.push(row(name(quantity, dimension), kind, &scalar)),
             }
         }
-        let cells = dimension.written(self.cells);
-        let _ = write!(
-            table,
-            "from an auxiliary coarse solution on {cells} cells with {}, {}",
-            counted(self.increments, "increment"),
-            duration(self.wall_s)
-        );
+        rows
+    }
+
+    /// Where they come from.
+    pub fn source(&self) -> String {
+        let cells = Dimension::of(self.cells).written(self.cells);
+        let increments = counted(self.increments, "increment");
+        format!("from an auxiliary coarse solution on {cells} cells with {increments}")
+    }
+
+    /// The numbers with their bars, a column a stage.
+    pub fn table(&self, stage_name: impl Fn(usize) -> String) -> String {
+        let shown = &self.bars[self.bars.len().saturating_sub(MOST_COLUMNS)..];
+        let mut table = String::new();
+        let names = shown.iter().map(|bars| shortened(&stage_name(bars.stage), COLUMN - 2));
+        side_by_side(&mut table, "error bars, at the end of", COLUMN, names);
+        for BarRow { name, cells, .. } in self.rows(shown) {
+            let told = cells.into_iter().map(|(value, bar)| with_bar(value, bar));
+            side_by_side(&mut table, &name, COLUMN, told);
+        }
+        let _ = write!(table, "{}, {}", self.source(), duration(self.wall_s));
         for (stage, why) in &self.unresolved {
             let _ = write!(table, "\nno error bars at the end of {}: {why}", stage_name(*stage));
         }
@@ -136,21 +236,16 @@ impl Estimate {
     }
 }
 
-/// `value ± bar`.
-fn number(bar: &Bar, axis: usize) -> String {
-    with_bar(bar.value[axis], bar.bar)
-}
-
 /// A shift with its bar, both zero where they vanish in the rounding of the approach.
-fn shift(bar: &Bar, axis: usize, approach: f64) -> String {
+fn shift(bar: &Bar, axis: usize, approach: f64) -> (f64, Option<f64>) {
     let above_rounding = |value: f64| if value.abs() <= 1e-12 * approach.abs() { 0.0 } else { value };
-    with_bar(above_rounding(bar.value[axis]), bar.bar.map(above_rounding))
+    (above_rounding(bar.value[axis]), bar.bar.map(above_rounding))
 }
 
 /// The radius of a circle of an area, with the bar that follows from the area's.
-fn radius(area: &Bar) -> String {
+fn radius(area: &Bar) -> (f64, Option<f64>) {
     let radius = (area.value[0] / PI).sqrt();
-    with_bar(radius, area.bar.filter(|_| radius > 0.0).map(|bar| bar / (2.0 * PI * radius)))
+    (radius, area.bar.filter(|_| radius > 0.0).map(|bar| bar / (2.0 * PI * radius)))
 }
 
 fn with_bar(value: f64, bar: Option<f64>) -> String {
