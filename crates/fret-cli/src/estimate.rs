@@ -1,5 +1,6 @@
 //! Error bars of a run: a companion at half the cells and increments is solved after it, and both are compared.
 
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::fmt::Write;
 
@@ -7,6 +8,7 @@ use fret_core::model::Dimension;
 use fret_core::plan::{Coupling, Plan};
 use fret_core::run::Observer;
 use fret_core::study::{Bar, Bars, Quantity, StageQuantities, error_bars, resolved, solved_level};
+use serde::Deserialize;
 use serde_json::{Value, json};
 
 use crate::defect;
@@ -45,6 +47,57 @@ pub struct Estimate {
     rubs: bool,
 }
 
+/// A value and its bar; no bar: it has no limit.
+pub type Cell = (f64, Option<f64>);
+
+/// A number of the estimate, at the ends of some stages.
+#[derive(Debug)]
+pub struct BarRow {
+    /// Its name.
+    pub name: String,
+    /// The kind of its unit.
+    pub kind: &'static str,
+    /// Its values with their bars; nothing at the end of a stage that has no such number.
+    pub cells: Vec<Option<Cell>>,
+}
+
+/// Error bars as their file holds them, see [`Estimate::to_json`].
+#[derive(Debug, Deserialize)]
+pub struct BarsRecord {
+    auxiliary: Auxiliary,
+    stages: Vec<StageBars>,
+}
+
+#[derive(Debug, Deserialize)]
+struct Auxiliary {
+    cells: [usize; 2],
+    increments: usize,
+    wall_s: f64,
+}
+
+#[derive(Debug, Deserialize)]
+struct StageBars {
+    stage: usize,
+    #[serde(rename = "name")]
+    _name: String,
+    #[serde(flatten)]
+    numbers: BTreeMap<String, NumberWithBar>,
+}
+
+#[derive(Debug, Deserialize)]
+struct NumberWithBar {
+    value: Told,
+    error_bar: Option<f64>,
+}
+
+/// A number, or one along x and y.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(untagged)]
+enum Told {
+    One(f64),
+    Both([f64; 2]),
+}
+
 impl Estimate {
     /// Solves the companion of a solved plan, whose own quantities of interest are `stage_quantities`, and compares. The reason where that
     /// is not possible: the run itself is none the worse for it.
@@ -79,45 +132,83 @@ impl Estimate {
         })
     }
 
-    /// The numbers with their bars, a column a stage.
-    pub fn table(&self, stage_name: impl Fn(usize) -> String) -> String {
-        let shown = &self.bars[self.bars.len().saturating_sub(MOST_COLUMNS)..];
-        let mut table = String::new();
-        let mut row = |name: &str, cell: &dyn Fn(&Bars) -> String| {
-            side_by_side(&mut table, name, COLUMN, shown.iter().map(cell));
-        };
-        row("error bars, at the end of", &|bars| shortened(&stage_name(bars.stage), COLUMN - 2));
-        let dimension = Dimension::of(self.cells);
-        let has = |quantity: Quantity| shown.iter().any(|bars| bars.of(quantity).is_some());
-        for quantity in Quantity::ALL.into_iter().filter(|quantity| has(*quantity)) {
-            let told = |bars: &Bars, tell: &dyn Fn(&Bar) -> String| {
-                bars.of(quantity).map_or("-".to_owned(), |bar| tell(&bar))
+    /// An estimate of a file. Which stages have no bars, and why, is not told there. `rubs`: there is friction to speak of.
+    pub fn read_back(record: &BarsRecord, rubs: bool) -> Self {
+        let bar = |stage: &StageBars, quantity: Quantity| {
+            let number = stage.numbers.get(quantity.name())?;
+            let value = match number.value {
+                Told::Both(both) => both,
+                Told::One(one) => [one, 0.0],
             };
-            let scalar = |bars: &Bars| told(bars, &|bar| with_bar(bar.value[0], bar.bar));
-            let name = name(quantity, dimension);
+            Some(Bar { quantity, value, bar: number.error_bar })
+        };
+        let bars = |stage: &StageBars| Bars {
+            stage: stage.stage,
+            bars: Quantity::ALL.into_iter().filter_map(|quantity| bar(stage, quantity)).collect(),
+        };
+        Self {
+            bars: record.stages.iter().map(bars).collect(),
+            cells: record.auxiliary.cells,
+            increments: record.auxiliary.increments,
+            wall_s: record.auxiliary.wall_s,
+            unresolved: Vec::new(),
+            rubs,
+        }
+    }
+
+    /// The numbers with their bars, a row a number, for the ends of some stages.
+    pub fn rows(&self, shown: &[Bars]) -> Vec<BarRow> {
+        let dimension = Dimension::of(self.cells);
+        let row = |name: &str, kind, cell: &dyn Fn(&Bars) -> Option<Cell>| BarRow {
+            name: name.to_owned(),
+            kind,
+            cells: shown.iter().map(cell).collect(),
+        };
+        let has = |quantity: Quantity| shown.iter().any(|bars| bars.of(quantity).is_some());
+        let mut rows = Vec::new();
+        for quantity in Quantity::ALL.into_iter().filter(|quantity| has(*quantity)) {
+            let scalar = |bars: &Bars| bars.of(quantity).map(|bar| (bar.value[0], bar.bar));
+            let (name, kind) = (name(quantity, dimension), kind(quantity));
             match quantity {
                 Quantity::StickArea | Quantity::Shift | Quantity::DissipatedEnergy if !self.rubs => {}
                 Quantity::Shift | Quantity::Creepage => {
                     for (axis, direction) in ["x", "y"].into_iter().enumerate() {
-                        row(&format!("{name} {direction}"), &|bars| {
-                            told(bars, &|bar| component(bar, axis, beside(bars, quantity)))
-                        });
+                        rows.push(row(&format!("{name} {direction}"), kind, &|bars| {
+                            bars.of(quantity).map(|bar| component(&bar, axis, beside(bars, quantity)))
+                        }));
                     }
                 }
                 Quantity::ContactArea if dimension == Dimension::Plane => {
-                    row(name, &scalar);
-                    row("radius of a circle of that area", &|bars| told(bars, &radius));
+                    rows.push(row(name, kind, &scalar));
+                    let radius = |bars: &Bars| bars.of(quantity).as_ref().map(radius);
+                    rows.push(row("radius of a circle of that area", "length", &radius));
                 }
-                _ => row(name, &scalar),
+                _ => rows.push(row(name, kind, &scalar)),
             }
         }
-        let cells = dimension.written(self.cells);
-        let _ = write!(
-            table,
-            "from an auxiliary coarse solution on {cells} cells with {}, {}",
-            counted(self.increments, "increment"),
-            duration(self.wall_s)
-        );
+        rows
+    }
+
+    /// Where they come from.
+    pub fn source(&self) -> String {
+        let cells = Dimension::of(self.cells).written(self.cells);
+        let increments = counted(self.increments, "increment");
+        format!("from an auxiliary coarse solution on {cells} cells with {increments}")
+    }
+
+    /// The numbers with their bars, a column a stage.
+    pub fn table(&self, stage_name: impl Fn(usize) -> String) -> String {
+        let shown = &self.bars[self.bars.len().saturating_sub(MOST_COLUMNS)..];
+        let mut table = String::new();
+        let names = shown.iter().map(|bars| shortened(&stage_name(bars.stage), COLUMN - 2));
+        side_by_side(&mut table, "error bars, at the end of", COLUMN, names);
+        for BarRow { name, cells, .. } in self.rows(shown) {
+            let told = cells
+                .into_iter()
+                .map(|cell| cell.map_or("-".to_owned(), |(value, bar)| with_bar(value, bar)));
+            side_by_side(&mut table, &name, COLUMN, told);
+        }
+        let _ = write!(table, "{}, {}", self.source(), duration(self.wall_s));
         for (stage, why) in &self.unresolved {
             let _ = write!(table, "\nno error bars at the end of {}: {why}", stage_name(*stage));
         }
@@ -141,6 +232,20 @@ impl Estimate {
     }
 }
 
+/// The kind of the unit of a quantity.
+fn kind(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::MaxPressure => "pressure",
+        Quantity::Approach | Quantity::Shift | Quantity::MaxWornDepth => "length",
+        Quantity::ContactArea | Quantity::StickArea => "length^2",
+        Quantity::DissipatedEnergy => "force x length",
+        Quantity::Creepage => "",
+        Quantity::Spin => "1/length",
+        Quantity::RollingFriction => "force",
+        Quantity::WornVolume => "length^3",
+    }
+}
+
 /// What a component of a motion vanishes beside: the approach; of a creepage, which is a ratio, one.
 fn beside(bars: &Bars, quantity: Quantity) -> f64 {
     match bars.of(Quantity::Approach) {
@@ -150,15 +255,15 @@ fn beside(bars: &Bars, quantity: Quantity) -> f64 {
 }
 
 /// A component with its bar, both zero where they vanish in the rounding of what they are beside.
-fn component(bar: &Bar, axis: usize, beside: f64) -> String {
+fn component(bar: &Bar, axis: usize, beside: f64) -> Cell {
     let above_rounding = |value: f64| if value.abs() <= 1e-12 * beside { 0.0 } else { value };
-    with_bar(above_rounding(bar.value[axis]), bar.bar.map(above_rounding))
+    (above_rounding(bar.value[axis]), bar.bar.map(above_rounding))
 }
 
 /// The radius of a circle of an area, with the bar that follows from the area's.
-fn radius(area: &Bar) -> String {
+fn radius(area: &Bar) -> Cell {
     let radius = (area.value[0] / PI).sqrt();
-    with_bar(radius, area.bar.filter(|_| radius > 0.0).map(|bar| bar / (2.0 * PI * radius)))
+    (radius, area.bar.filter(|_| radius > 0.0).map(|bar| bar / (2.0 * PI * radius)))
 }
 
 /// `value ± bar`.

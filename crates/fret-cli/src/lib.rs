@@ -14,6 +14,7 @@ mod failure;
 mod figures;
 mod identify;
 mod interrupt;
+mod loop_numbers;
 mod methods;
 mod progress;
 mod report;

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use fret_core::case::Stage;
-use fret_core::history::{CycleRecord, CycleRegime, Drive, StepRecord, Warning, WornByLayer, WornTo};
+use fret_core::history::{CycleRecord, StepRecord, Warning, WornByLayer, WornTo, rolling_columns};
 use fret_core::model::Dimension;
 use fret_core::plan::{Coupling, Plan};
 use fret_core::study::pressure_is_unbounded;
@@ -17,6 +17,7 @@ use crate::failure::Failure;
 use crate::figures::{
     LONGEST_TITLE, NAMES, counted, duration, figure, figure_beside, shortened, side_by_side,
 };
+use crate::loop_numbers::{loop_numbers, sliding_condition};
 use crate::methods::paragraph;
 use fret_results::Tally;
 use fret_results::commit::COMMIT;
@@ -64,6 +65,13 @@ impl Summary<'_> {
         side_by_side(&mut table, "after stage", COLUMN, names.map(|name| shortened(name, COLUMN - 2)));
         for (name, kind, reading) in self.readings() {
             side_by_side(&mut table, &self.plan.case.heading(name, kind), COLUMN, shown.iter().map(reading));
+        }
+        if shown.iter().any(|record| record.creepage.is_some()) {
+            for (column, of) in rolling_columns() {
+                let heading = self.plan.case.heading(&column.in_words(), column.unit);
+                let told = |record: &StepRecord| of(record).map_or("-".to_owned(), figure);
+                side_by_side(&mut table, &heading, COLUMN, shown.iter().map(told));
+            }
         }
         if self.plan.case.wear.is_some() || self.plan.case.friction_evolution.is_some() {
             let cycles = || shown.iter().map(|record| self.cycles_of(record.stage));
@@ -252,32 +260,14 @@ impl Summary<'_> {
         }
     }
 
-    /// What the loop of a cycle tells: the sliding condition and the numbers that tribologists compare.
+    /// What the loop of a cycle tells.
     fn loop_of(&self, cycle: &CycleRecord, table: &mut String) {
-        let turns = cycle.drive == Drive::Torsional;
-        let [force, motion] = if turns {
-            [("moment amplitude", "force x length"), ("rotation amplitude", "rad")]
-        } else {
-            [("force amplitude Q*", "force"), ("displacement amplitude d*", "length")]
-        };
-        let slope = if turns { "force x length" } else { "force/length" };
-        let told = |value: Option<f64>| value.map_or("-".to_owned(), figure);
         let stage = self.stage_name(cycle.stage);
         let _ = writeln!(table, "in cycle {} of {stage}:", cycle.last_cycle);
-        side_by_side(
-            table,
-            "sliding condition",
-            COLUMN,
-            std::iter::once(sliding_condition(cycle).to_owned()),
-        );
-        for ((name, kind), value) in [
-            (force, Some(cycle.force_amplitude)),
-            (motion, Some(cycle.displacement_amplitude)),
-            (("stiffness after reversal", slope), cycle.stiffness),
-            (("energy ratio A", ""), cycle.energy_ratio),
-            (("sliding ratio D", ""), cycle.sliding_ratio),
-        ] {
-            side_by_side(table, &self.plan.case.heading(name, kind), COLUMN, std::iter::once(told(value)));
+        let mut row = |name: &str, value: String| side_by_side(table, name, COLUMN, std::iter::once(value));
+        row("sliding condition", sliding_condition(cycle).to_owned());
+        for (name, kind, value) in loop_numbers(cycle) {
+            row(&self.plan.case.heading(name, kind), value.map_or("-".to_owned(), figure));
         }
     }
 
@@ -367,21 +357,6 @@ pub fn volumes_by_layer(worn: &WornByLayer, volume: impl Fn(f64) -> String) -> V
         (!lost.is_empty()).then(|| (format!("worn off layers, {body} body"), lost.join(", ")))
     };
     [("lower", &worn.lower), ("upper", &worn.upper)].into_iter().filter_map(of).collect()
-}
-
-/// The sliding condition of a cycle, in words.
-fn sliding_condition(cycle: &CycleRecord) -> &'static str {
-    cycle.regime.map_or("-", regime)
-}
-
-/// A sliding condition in words.
-pub fn regime(regime: CycleRegime) -> &'static str {
-    match regime {
-        CycleRegime::FullStick => "full stick",
-        CycleRegime::PartialSlip => "partial slip",
-        CycleRegime::Mixed => "mixed",
-        CycleRegime::GrossSlip => "gross slip",
-    }
 }
 
 /// Share of the cells in contact that stick; none when nothing touches.

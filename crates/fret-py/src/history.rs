@@ -26,6 +26,7 @@ pub fn step_items<'py>(py: Python<'py>, step: &StepRecord) -> PyResult<Bound<'py
             Value::Count(of) => items.set_item(name, of(step)),
             Value::Real(of) => items.set_item(name, of(step)),
             Value::RealOrNone(of) => items.set_item(name, of(step)),
+            Value::RealOrZero(of) => items.set_item(name, of(step).unwrap_or(0.0)),
             Value::Truth(of) => items.set_item(name, of(step)),
             Value::Word(of) => items.set_item(name, of(step)),
         }?;
@@ -63,6 +64,10 @@ impl History {
                 Value::Real(of) => items.set_item(name, PyArray1::from_iter(py, steps.iter().map(of))),
                 Value::RealOrNone(of) => {
                     let column = steps.iter().map(|step| of(step).unwrap_or(f64::NAN));
+                    items.set_item(name, PyArray1::from_iter(py, column))
+                }
+                Value::RealOrZero(of) => {
+                    let column = steps.iter().map(|step| of(step).unwrap_or(0.0));
                     items.set_item(name, PyArray1::from_iter(py, column))
                 }
                 Value::Truth(of) => items.set_item(name, PyArray1::from_iter(py, steps.iter().map(of))),
@@ -166,7 +171,7 @@ pub fn vocabulary() -> String {
     fn told<R>(columns: &[Column<R>]) -> Vec<Json> {
         let kind = |value: &Value<R>| match value {
             Value::Count(_) => "int",
-            Value::Real(_) | Value::RealOrNone(_) => "float",
+            Value::Real(_) | Value::RealOrNone(_) | Value::RealOrZero(_) => "float",
             Value::Truth(_) => "bool",
             Value::Word(_) => "str",
         };

@@ -46,7 +46,9 @@ impl StoredRun {
                     let counts: Vec<i64> = numbers()?.iter().map(|count| *count as i64).collect();
                     items.set_item(name, counts.into_pyarray(py))
                 }
-                Value::Real(_) | Value::RealOrNone(_) => items.set_item(name, numbers()?.to_pyarray(py)),
+                Value::Real(_) | Value::RealOrNone(_) | Value::RealOrZero(_) => {
+                    items.set_item(name, numbers()?.to_pyarray(py))
+                }
                 Value::Truth(_) => {
                     let truths = numbers()?.iter().map(|truth| *truth != 0.0);
                     items.set_item(name, PyArray1::from_iter(py, truths))

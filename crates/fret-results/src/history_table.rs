@@ -134,6 +134,7 @@ fn line<R>(columns: &[Column<R>], record: &R) -> String {
         Value::Count(of) => of(record).to_string(),
         Value::Real(of) => exact(of(record)),
         Value::RealOrNone(of) => of(record).map_or_else(String::new, exact),
+        Value::RealOrZero(of) => exact(of(record).unwrap_or(0.0)),
         Value::Truth(of) => of(record).to_string(),
         Value::Word(of) => of(record).to_owned(),
     };

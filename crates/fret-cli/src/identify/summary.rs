@@ -6,7 +6,7 @@ use super::over_cycles::in_words;
 use super::record::rows_in_words;
 use super::repeated;
 use crate::figures::figure;
-use crate::summary::regime;
+use crate::loop_numbers::regime;
 
 /// What is told of the fitted cycle: its name, its unit, and what it is.
 type Told = (&'static str, &'static str, fn(&Quantities) -> Option<f64>);

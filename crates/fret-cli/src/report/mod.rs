@@ -1,7 +1,7 @@
 //! A run, a sweep or a study in one page: HTML with its style, its drawings and its script inside, so that it needs neither network nor other files, and
 //! tells the browser to refuse both.
 //!
-//! From the ground: `html` (numbers and parts), `measured` (numbers with their units), `overview` (the run as a whole, and the closed forms that speak about it), `window` (what of
+//! From the ground: `html` (numbers and parts), `measured` (numbers with their units), `rolled` (how far it rolled), `overview` (the run as a whole, and the closed forms that speak about it), `window` (what of
 //! the grid is shown), `chapters` (what the page tells), and the page itself here; `sweep` and `study` are pages of their own.
 
 mod chapters;
@@ -9,6 +9,7 @@ pub mod html;
 mod literature;
 mod measured;
 mod overview;
+mod rolled;
 pub mod study;
 pub mod sweep;
 mod window;

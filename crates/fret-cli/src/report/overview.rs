@@ -7,6 +7,7 @@ use fret_core::study::{Loaded, NormalForm, TangentialForm};
 use fret_core::units::Units;
 
 use super::Measured;
+use super::rolled::Rolled;
 use crate::drawing::chart::joined;
 use crate::drawing::scale::Label;
 use fret_results::Results;
@@ -37,6 +38,8 @@ pub struct Overview<'a> {
     pub tangential_form: Option<TangentialForm>,
     /// Whether torsion is what moves: its loop of moment and twist is larger than that of force and shift, force times motion.
     pub twists: bool,
+    /// The way that it rolled, where it did.
+    pub rolled: Option<Rolled>,
     /// Increments of each stage: first, and one after the last.
     pub spans: Vec<[usize; 2]>,
 }
@@ -70,6 +73,7 @@ impl<'a> Overview<'a> {
             normal_form,
             tangential_form,
             twists: twists(results),
+            rolled: Rolled::of(results),
             spans: spans(table.column("stage"), results.case().stages.len()),
         }
     }
@@ -99,10 +103,13 @@ impl<'a> Overview<'a> {
         }
     }
 
-    /// The tangential load: force and motion of the loop, or moment and rotation where that is what moves.
+    /// The tangential load: force and motion of the loop, or moment and rotation where that is what moves; of a contact that rolls, force and
+    /// distance rolled.
     pub fn loop_points(&self) -> Vec<[f64; 2]> {
         let table = &self.results.table;
-        if self.twists {
+        if let Some(rolled) = self.rolled.as_ref().filter(|_| self.direction.is_some()) {
+            joined(&rolled.distance, &self.tangential)
+        } else if self.twists {
             joined(table.column("twist"), table.column("twist_moment"))
         } else if self.direction.is_some() {
             joined(&self.shift, &self.tangential)
@@ -114,7 +121,9 @@ impl<'a> Overview<'a> {
 
     /// Names of the axes of [`Self::loop_points`].
     pub fn labels_of_loop(&self) -> [Label; 2] {
-        if self.twists || self.direction.is_some() {
+        if self.rolled.is_some() && self.direction.is_some() {
+            [self.label("distance rolled", "length"), self.label("tangential force", "force")]
+        } else if self.twists || self.direction.is_some() {
             self.loop_labels(self.twists)
         } else {
             [self.label(self.closeness().0, "length"), self.label("normal force", "force")]

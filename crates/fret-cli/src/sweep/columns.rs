@@ -1,7 +1,7 @@
 //! The numbers of a point: the columns of `summary.csv`, and what the page of a sweep draws. Those of the last increment and the last cycle
 //! every sweep has; those of stresses, fatigue, cracks, coatings and heat the sweeps whose cases ask for them.
 
-use fret_core::history::{self, CYCLE_COLUMNS, Column, CycleRecord, STEP_COLUMNS};
+use fret_core::history::{self, CYCLE_COLUMNS, Column, CycleRecord, STEP_COLUMNS, rolling_columns};
 use fret_core::subsurface::Measure;
 use fret_core::subsurface::fatigue::Parameter;
 use serde_json::{Value, json};
@@ -26,8 +26,6 @@ const END: [&str; 12] = [
     "shift_x",
     "shift_y",
 ];
-/// Columns of the last increment that are told where a point has them: those of rolling.
-const ROLLING: [&str; 3] = ["creepage_x", "creepage_y", "spin"];
 /// Columns of the last cycle.
 const CYCLE: [&str; 9] = [
     "dissipated_energy",
@@ -182,7 +180,11 @@ pub fn columns(answers: &[Option<Answer>]) -> Vec<SummaryColumn> {
         let value = |place: usize| Some(told(column, numbers[place]?.cycle.as_ref()?));
         columns.push(of_records(format!("cycle_{}", column.name), column.unit, &value));
     }
-    let mut asked: Vec<SummaryColumn> = ROLLING.iter().filter_map(at_end).collect();
+    let mut asked = Vec::new();
+    for (column, of) in rolling_columns() {
+        let value = |place: usize| Some(json!(of(numbers[place]?.end.as_ref()?)?));
+        asked.push(of_records(column.name.to_owned(), column.unit, &value));
+    }
     let stress = |place: usize| -> Option<&StressRecord> { numbers[place]?.stress.as_ref() };
     for measure in Measure::ALL {
         let largest = |place: usize| {
@@ -226,7 +228,7 @@ fn told<R>(column: &Column<R>, record: &R) -> Value {
     match column.value {
         history::Value::Count(of) => json!(of(record)),
         history::Value::Real(of) => json!(of(record)),
-        history::Value::RealOrNone(of) => json!(of(record)),
+        history::Value::RealOrNone(of) | history::Value::RealOrZero(of) => json!(of(record)),
         history::Value::Truth(of) => json!(of(record)),
         history::Value::Word(of) => json!(of(record)),
     }

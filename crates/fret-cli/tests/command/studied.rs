@@ -5,7 +5,8 @@ use serde_json::Value;
 use crate::bench::{Bench, SPHERE};
 
 /// A rigid sphere on a half-space, no friction: Hertz knows it.
-const HERTZ: &str = r#"title = "Hertz <again>"
+/// A rigid ball of radius 100 that touches a circle of radius 1.
+pub const HERTZ: &str = r#"title = "Hertz <again>"
 grid = { cells = [32, 32], size = [2.4, 2.4] }
 upper.rigid = true
 lower.substrate = { young = 1.0, poisson = 0.3 }

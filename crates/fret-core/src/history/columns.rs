@@ -37,6 +37,8 @@ pub enum Value<R: 'static> {
     Real(fn(&R) -> f64),
     /// A real number that some records lack.
     RealOrNone(fn(&R) -> Option<f64>),
+    /// The same, of what happens while a contact rolls: tables of numbers have 0 where it does not.
+    RealOrZero(fn(&R) -> Option<f64>),
     /// Yes or no.
     Truth(fn(&R) -> bool),
     /// A word, empty where a record lacks it.
@@ -68,6 +70,15 @@ pub(super) const fn real_or_none<R>(
     value: fn(&R) -> Option<f64>,
 ) -> Column<R> {
     Column { name, meaning, unit, value: Value::RealOrNone(value) }
+}
+
+const fn real_or_zero<R>(
+    name: &'static str,
+    meaning: &'static str,
+    unit: &'static str,
+    value: fn(&R) -> Option<f64>,
+) -> Column<R> {
+    Column { name, meaning, unit, value: Value::RealOrZero(value) }
 }
 
 pub(super) const fn truth<R>(
@@ -243,24 +254,24 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
     ),
     real("roll_x", "distance that the contact has rolled along x", LENGTH, |step| step.roll[0]),
     real("roll_y", "distance that the contact has rolled along y", LENGTH, |step| step.roll[1]),
-    real(
+    real_or_zero(
         "creepage_x",
         "displacement of the upper body along x by distance rolled; 0 where it does not roll",
         RATIO,
-        |step| step.creepage.map_or(0.0, |creepage| creepage[0]),
+        |step| step.creepage.map(|creepage| creepage[0]),
     ),
-    real("creepage_y", "the same along y", RATIO, |step| step.creepage.map_or(0.0, |creepage| creepage[1])),
-    real(
+    real_or_zero("creepage_y", "the same along y", RATIO, |step| step.creepage.map(|creepage| creepage[1])),
+    real_or_zero(
         "spin",
         "rotation of the upper body by distance rolled; 0 where it does not roll",
         "rad/length",
-        |step| step.spin.unwrap_or(0.0),
+        |step| step.spin,
     ),
-    real(
+    real_or_zero(
         "rolling_friction",
         "energy that friction dissipates in the increment by distance rolled; 0 where it does not roll",
         FORCE,
-        |step| step.rolling_friction.unwrap_or(0.0),
+        |step| step.rolling_friction,
     ),
     real("debris_volume", "debris between the surfaces, with wear.debris", VOLUME, |step| step.debris.volume),
     real(
@@ -283,6 +294,24 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
         |step| step.plastic.work,
     ),
 ];
+
+impl<R: 'static> Column<R> {
+    /// Its name as a person reads it.
+    pub fn in_words(&self) -> String {
+        self.name.replace('_', " ")
+    }
+}
+
+/// A column of what happens while a contact rolls, with its value in a record, which one of a contact that does not roll lacks.
+pub type RollingColumn = (&'static Column<StepRecord>, fn(&StepRecord) -> Option<f64>);
+
+/// Those columns, in their order: creepage, spin and friction by distance rolled.
+pub fn rolling_columns() -> impl Iterator<Item = RollingColumn> {
+    STEP_COLUMNS.iter().filter_map(|column| match column.value {
+        Value::RealOrZero(of) => Some((column, of)),
+        _ => None,
+    })
+}
 
 pub(super) fn regime_word(regime: Regime) -> &'static str {
     match regime {

@@ -187,7 +187,7 @@ mod tests {
             let value = match column.value {
                 Value::Count(of) => json!(of(&record)),
                 Value::Real(of) => json!(of(&record)),
-                Value::RealOrNone(of) => json!(of(&record)),
+                Value::RealOrNone(of) | Value::RealOrZero(of) => json!(of(&record)),
                 Value::Truth(of) => json!(of(&record)),
                 Value::Word(of) => json!(of(&record)),
             };

@@ -12,7 +12,7 @@ mod start;
 mod warning;
 
 pub use crate::solver::{Regime, Residual, Work};
-pub use columns::{Column, STEP_COLUMNS, Value};
+pub use columns::{Column, RollingColumn, STEP_COLUMNS, Value, rolling_columns};
 pub use concern::{Concern, RING_CELLS, RING_FRACTION, RING_SHEAR, STIFFEST};
 pub use cycle::{CycleRecord, CycleRegime, Drive, RunningCondition, SLIDING_ENERGY_RATIO, running_condition};
 pub use cycle_columns::CYCLE_COLUMNS;

@@ -1,6 +1,8 @@
 //! The history as it moves: loop, sections and maps of an increment, and a slider that goes through the kept ones. Without scripts
 //! the increment of the largest load stands there.
 
+use std::borrow::Cow;
+
 use fret_core::model::Dimension;
 use maud::{Markup, PreEscaped, html};
 use serde_json::{Value, json};
@@ -208,7 +210,7 @@ impl Ground<'_> {
     }
 
     /// What is told of an increment in words.
-    fn words(&self, moment: &Moment) -> Vec<(&'static str, &'static str, String)> {
+    fn words(&self, moment: &Moment) -> Vec<(Cow<'static, str>, &'static str, String)> {
         let (view, table, at) = (self.view, &self.view.results.table, moment.increment);
         let (stage, number) = view.place(at);
         let of = view.spans.get(stage).map_or(0, |[first, end]| end - first);
@@ -218,26 +220,41 @@ impl Ground<'_> {
             view.number(if value.abs() <= ROUNDING * largest(values) { 0.0 } else { value }, kind)
         };
         let mut words = vec![
-            ("increment", "word-increment", format!("{at}: {}, {number} of {of}", view.stage_name(stage))),
-            ("normal force", "word-force", view.number(table.at("normal_force", at), "force")),
+            (
+                "increment".into(),
+                "word-increment",
+                format!("{at}: {}, {number} of {of}", view.stage_name(stage)),
+            ),
+            ("normal force".into(), "word-force", view.number(table.at("normal_force", at), "force")),
         ];
         if view.twists {
             words.push((
-                "torsional moment",
+                "torsional moment".into(),
                 "word-moment",
                 beside(table.column("twist_moment"), "force x length"),
             ));
         } else if view.direction.is_some() {
-            words.push(("tangential force", "word-tangential", beside(&view.tangential, "force")));
-            words.push(("displacement", "word-shift", beside(&view.shift, "length")));
+            words.push(("tangential force".into(), "word-tangential", beside(&view.tangential, "force")));
+            words.push(("displacement".into(), "word-shift", beside(&view.shift, "length")));
         }
-        words.push(("max pressure", "word-pressure", view.number(table.at("max_pressure", at), "pressure")));
+        words.push((
+            "max pressure".into(),
+            "word-pressure",
+            view.number(table.at("max_pressure", at), "pressure"),
+        ));
         if !view.is_frictionless() {
             words.push((
-                "stick fraction",
+                "stick fraction".into(),
                 "word-stick",
                 percent(table.at("stick_area", at) / table.at("contact_area", at)),
             ));
+        }
+        if let Some(rolled) = &view.rolled {
+            for column in &rolled.columns {
+                let number = || view.number(table.at(column.name, at), column.unit);
+                let told = if rolled.rolls[at] { number() } else { "–".to_owned() };
+                words.push((column.in_words().into(), column.name, told));
+            }
         }
         words
     }

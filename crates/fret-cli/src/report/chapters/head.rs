@@ -1,11 +1,14 @@
 //! The run at a glance: title, how it ended, its most telling numbers, what about them may mislead.
 
+use std::borrow::Cow;
+
 use fret_core::history::WornTo;
 use fret_core::model::Dimension;
 use fret_core::study::pressure_is_unbounded;
 use maud::{Markup, html};
 
 use crate::figures::{capitalised, counted, duration};
+use crate::loop_numbers::sliding_condition;
 use crate::report::Measured;
 use crate::report::html::{percent, short};
 use crate::report::overview::Overview;
@@ -54,7 +57,7 @@ fn how_it_ended(view: &Overview<'_>) -> String {
     line.join(" · ")
 }
 
-fn cards(view: &Overview<'_>) -> Vec<(&'static str, String)> {
+fn cards(view: &Overview<'_>) -> Vec<(Cow<'static, str>, String)> {
     let table = &view.results.table;
     let Some(last) = table.rows().checked_sub(1) else { return Vec::new() };
     let largest = |name: &str| table.column(name).iter().copied().fold(0.0, f64::max);
@@ -69,28 +72,39 @@ fn cards(view: &Overview<'_>) -> Vec<(&'static str, String)> {
         "max pressure"
     };
     let mut cards = vec![
-        (pressure, view.number(largest("max_pressure"), "pressure")),
-        (area, view.number(largest("contact_area"), "length^2")),
+        (pressure.into(), view.number(largest("max_pressure"), "pressure")),
+        (area.into(), view.number(largest("contact_area"), "length^2")),
     ];
     if view.direction.is_some() || view.twists {
-        cards.push(("max shear", view.number(largest("max_shear"), "pressure")));
+        cards.push(("max shear".into(), view.number(largest("max_shear"), "pressure")));
         cards.push((
-            "stick at the end",
+            "stick at the end".into(),
             percent(table.at("stick_cells", last) / table.at("contact_cells", last)),
         ));
-        cards.push(("dissipated energy", view.number(table.at("dissipated_energy", last), "force x length")));
+        cards.push((
+            "dissipated energy".into(),
+            view.number(table.at("dissipated_energy", last), "force x length"),
+        ));
     }
-    if case.wear.is_some() {
-        cards.push(("wear volume", view.number(table.at("worn_volume", last), "length^3")));
-        cards.push(("max wear depth", view.number(table.at("max_worn_depth", last), "length")));
+    if let Some(cycle) = view.results.cycles.last().filter(|cycle| cycle.regime.is_some()) {
+        cards.push(("sliding condition".into(), sliding_condition(cycle).to_owned()));
     }
-    if case.wear.as_ref().is_some_and(|wear| wear.debris.is_some()) {
-        cards.push(("debris", view.number(table.at("debris_volume", last), "length^3")));
-        if let Some(cycle) = view.results.cycles.last() {
-            cards.push(("cycles", cycle.last_cycle.to_string()));
+    if let Some(rolled) = view.rolled.as_ref().filter(|rolled| rolled.rolls[last]) {
+        for column in &rolled.columns {
+            cards.push((column.in_words().into(), view.number(table.at(column.name, last), column.unit)));
         }
     }
-    cards.push(("max residual", short(largest("residual"))));
+    if case.wear.is_some() {
+        cards.push(("wear volume".into(), view.number(table.at("worn_volume", last), "length^3")));
+        cards.push(("max wear depth".into(), view.number(table.at("max_worn_depth", last), "length")));
+    }
+    if case.wear.as_ref().is_some_and(|wear| wear.debris.is_some()) {
+        cards.push(("debris".into(), view.number(table.at("debris_volume", last), "length^3")));
+        if let Some(cycle) = view.results.cycles.last() {
+            cards.push(("cycles".into(), cycle.last_cycle.to_string()));
+        }
+    }
+    cards.push(("max residual".into(), short(largest("residual"))));
     cards
 }
 

@@ -4,6 +4,7 @@ use fret_core::model::Control;
 use fret_core::study::{PartialSlip, TangentialForm};
 use maud::{Markup, html};
 
+use super::loop_table::loop_table;
 use crate::drawing::chart::{Chart, Curve, Stroke, joined};
 use crate::drawing::scale::Label;
 use crate::report::Measured;
@@ -58,9 +59,9 @@ pub fn loading(view: &Overview<'_>) -> Markup {
     chapter("Loading", &side_by_side(&figures))
 }
 
-/// Tangential force over displacement, or moment over rotation where that is what moves.
+/// Tangential force over displacement, or moment over rotation where that is what moves; nothing of a contact that rolls.
 pub fn fretting_loop(view: &Overview<'_>) -> Markup {
-    if view.direction.is_none() && !view.twists {
+    if view.rolled.is_some() || (view.direction.is_none() && !view.twists) {
         return html! {};
     }
     let axes = view.labels_of_loop();
@@ -86,7 +87,7 @@ pub fn fretting_loop(view: &Overview<'_>) -> Markup {
         };
     }
     let figures = [Chart::new(&what, axes, curves).figure(&caption), stick_fraction(view)];
-    chapter("Fretting loop", &side_by_side(&figures))
+    chapter("Fretting loop", &html! { (side_by_side(&figures)) (loop_table(view)) })
 }
 
 /// The loop: of several cycles the last one, over what came before.
@@ -112,7 +113,7 @@ pub fn loop_curves(view: &Overview<'_>) -> Vec<Curve> {
 }
 
 /// How much of the contact sticks.
-fn stick_fraction(view: &Overview<'_>) -> Markup {
+pub fn stick_fraction(view: &Overview<'_>) -> Markup {
     let table = &view.results.table;
     let fractions: Vec<f64> =
         table.column("stick_area").iter().zip(table.column("contact_area")).map(|(s, c)| s / c).collect();

@@ -4,12 +4,15 @@ mod comparison;
 mod convergence;
 mod cycles;
 mod energy;
+mod error_bars;
 mod explorer;
 mod head;
 mod heat;
 mod loading;
+mod loop_table;
 mod moment;
 mod question;
+mod rolling;
 mod sections;
 mod stress;
 mod wear;
@@ -32,6 +35,7 @@ pub fn all(view: &Overview<'_>) -> Result<Markup, Failure> {
         (question::question(view))
         (loading::loading(view))
         (loading::fretting_loop(view))
+        (rolling::rolling(view))
         (cycles::cycles(view))
         (sections::sections(view)?)
         (zones::zones(view)?)
@@ -40,6 +44,7 @@ pub fn all(view: &Overview<'_>) -> Result<Markup, Failure> {
         (stress::stress(view))
         (heat::heat(view))
         (comparison::comparison(view))
+        (error_bars::error_bars(view)?)
         (convergence::convergence(view))
         (question::simplifications(view))
         (literature::chapter(view))
