@@ -80,6 +80,8 @@ pub struct Record<P = PlanRecord> {
     pub question_fnv1a64: Option<String>,
     /// The state that it started from; `None`: bodies apart.
     pub start: Option<StartedFrom>,
+    /// How many shapes of the profile, the first ones, are the upper body's.
+    pub shapes_of_upper: Option<usize>,
     /// Whether it is a line contact.
     pub line_contact: bool,
     /// The plan, with the case as it was understood.
@@ -181,6 +183,7 @@ impl RunRecord {
             },
             question_fnv1a64: Some(question(plan)),
             start: start.cloned(),
+            shapes_of_upper: Some(plan.case.profile.of_upper[0]),
             line_contact: plan.grid.dimension().into(),
             plan: plan.to_json(),
             warnings: plausibility::of_plan(plan),

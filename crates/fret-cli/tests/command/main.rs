@@ -17,6 +17,7 @@ mod loops;
 mod manners;
 mod memory;
 mod misleading;
+mod moving;
 mod places;
 mod refused;
 mod rolled;

@@ -24,7 +24,7 @@ fn raw(bench: &Bench, array: &str, place: usize) -> Vec<u8> {
     chunk
 }
 
-fn floats(bytes: &[u8]) -> Vec<f64> {
+pub fn floats(bytes: &[u8]) -> Vec<f64> {
     bytes.chunks_exact(8).map(|eight| f64::from_le_bytes(eight.try_into().unwrap())).collect()
 }
 

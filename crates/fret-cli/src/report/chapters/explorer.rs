@@ -38,7 +38,7 @@ pub fn explorer(view: &Overview<'_>) -> Result<Markup, Failure> {
     let telling = telling(view);
     let ground = Ground::of(view, MOST)?;
     let first = ground.moment(telling)?;
-    let bytes: usize = first.images.iter().map(String::len).sum::<usize>() + 20 * first.pressure.len();
+    let bytes: usize = first.images.iter().map(String::len).sum::<usize>() + 60 * first.pressure.len();
     let chosen = view.telling((ROOM / bytes.max(1)).clamp(FEWEST, MOST));
     let start = (0..chosen.len()).min_by_key(|place| chosen[*place].abs_diff(telling)).unwrap_or(0);
     let mut moments = Vec::new();
@@ -170,7 +170,42 @@ impl Ground<'_> {
                 "Shear along the same line; where it reaches the bound the contact slips.".to_owned(),
             ));
         }
+        if let Some([lower, upper]) = &now.surfaces {
+            charts.push(self.surfaces_chart(moments, [lower, upper], [along[first], along[last]]));
+        }
         charts
+    }
+
+    /// The surfaces over the contact and as far as they move beside it.
+    fn surfaces_chart(
+        &self,
+        moments: &[Moment],
+        now: [&Vec<f64>; 2],
+        [from, to]: [f64; 2],
+    ) -> (Chart, String) {
+        let way = largest(&self.view.shift);
+        let shown = |(s, _): &(&f64, &f64)| (from - way..=to + way).contains(*s);
+        let heights = moments.iter().flat_map(|moment| moment.surfaces.iter().flatten());
+        let heights = heights.flat_map(|values| self.section.along.iter().zip(values).filter(shown));
+        let axes = [self.view.label(self.section.name(), "length"), self.view.label("height", "length")];
+        let curve = |values: &[f64], id: &'static str, name: &str, colour: usize| Curve {
+            id: Some(id),
+            ..Curve::line(self.points(values), name, colour)
+        };
+        let curves = vec![
+            curve(now[0], "lower-surface", "lower body", 0),
+            curve(now[1], "upper-surface", "upper body", 1),
+        ];
+        let chart = Chart {
+            ranges: [
+                Some([from - way, to + way]),
+                Some(ends(heights.map(|(_, height)| *height).filter(|height| height.is_finite()))),
+            ],
+            ..Chart::new("surfaces along a line through the contact", axes, curves)
+        };
+        let caption = "The surfaces along the same line, worn and not deformed, brought together until they touch on it; the upper one moves with \
+                       its body.";
+        (chart, caption.to_owned())
     }
 
     fn maps(&self, now: &Moment) -> Result<Vec<Markup>, Failure> {
@@ -278,12 +313,16 @@ impl Ground<'_> {
             changes.insert(id.to_owned(), json!({ "d": frame.path(&self.shown_part(frame, values)) }));
         };
         line("pressure-line", &sections[0], &moment.pressure);
-        if let Some(frame) = sections.get(1) {
+        if let Some(frame) = sections.get(1).filter(|_| self.has_shear) {
             line("shear-line", frame, &moment.shear);
             if let Some(bound) = &moment.bound {
                 line("bound-above", frame, bound);
                 line("bound-below", frame, &bound.iter().map(|bound| -bound).collect::<Vec<_>>());
             }
+        }
+        if let (Some([lower, upper]), Some(frame)) = (&moment.surfaces, sections.last()) {
+            line("lower-surface", frame, lower);
+            line("upper-surface", frame, upper);
         }
         for (place, address) in moment.images.iter().enumerate() {
             changes.insert(format!("map-{place}"), json!({ "href": address }));

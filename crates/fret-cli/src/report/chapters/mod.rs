@@ -15,6 +15,7 @@ mod question;
 mod rolling;
 mod sections;
 mod stress;
+mod surfaces;
 mod wear;
 mod zones;
 

@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::report::chapters::sections::shear_direction;
+use crate::report::chapters::surfaces;
 use crate::report::overview::Overview;
 use crate::report::window::{Section, Window};
 use fret_results::Field;
@@ -13,6 +14,8 @@ pub struct Moment {
     pub pressure: Vec<f64>,
     pub shear: Vec<f64>,
     pub bound: Option<Vec<f64>>,
+    /// Heights of the lower and of the upper surface, where they move.
+    pub surfaces: Option<[Vec<f64>; 2]>,
     /// Images by the place of their map, each an address.
     pub images: Vec<String>,
 }
@@ -25,6 +28,7 @@ pub struct Ground<'a> {
     pub shear_name: &'static str,
     pub has_shear: bool,
     pub has_zones: bool,
+    pub has_surfaces: bool,
     pub window: Window,
     /// Largest pressure and largest shear of a cell.
     pub most: [f64; 2],
@@ -50,6 +54,7 @@ impl<'a> Ground<'a> {
             shear_name,
             has_shear,
             has_zones,
+            has_surfaces: surfaces::are_known(view),
             window: Window::new(fields.cells()),
             most: [0.0; 2],
         };
@@ -98,7 +103,9 @@ impl<'a> Ground<'a> {
                 let bound = |pressure: &f64| (coefficient * pressure).min(strength.unwrap_or(f64::INFINITY));
                 pressure.iter().map(bound).collect()
             });
-        Ok(Moment { increment, pressure, shear, bound, images })
+        let surfaces =
+            self.has_surfaces.then(|| surfaces::along(self.view, &self.section, position)).transpose()?;
+        Ok(Moment { increment, pressure, shear, bound, surfaces, images })
     }
 
     /// A field in false colours where there is contact.

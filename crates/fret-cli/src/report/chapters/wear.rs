@@ -8,6 +8,7 @@ use crate::drawing::map::Map;
 use crate::failure::Failure;
 use crate::report::Measured;
 use crate::report::chapters::sections::seen;
+use crate::report::chapters::surfaces::OWN_DEPTHS;
 use crate::report::html::{chapter, pairs, side_by_side};
 use crate::report::overview::Overview;
 use crate::report::window::{Section, Window};
@@ -16,7 +17,21 @@ use crate::summary::volumes_by_layer;
 /// Sections, at most.
 const MOST: usize = 5;
 
-/// The wear scar.
+/// A wear depth that is shown.
+struct Scar {
+    field: &'static str,
+    /// Whose it is, and in which frame.
+    of: &'static str,
+}
+
+const TOGETHER: [Scar; 1] = [Scar { field: "worn_depth", of: "both bodies together" }];
+/// Where the bodies move against each other.
+const OWN: [Scar; 2] = [
+    Scar { field: OWN_DEPTHS[0], of: "the lower body" },
+    Scar { field: OWN_DEPTHS[1], of: "the upper body, in its own frame, which moves with it" },
+];
+
+/// The wear scar, or that of each body.
 pub fn wear(view: &Overview<'_>) -> Result<Markup, Failure> {
     let fields = &view.results.fields;
     if view.results.case().wear.is_none() {
@@ -28,21 +43,44 @@ pub fn wear(view: &Overview<'_>) -> Result<Markup, Failure> {
         };
         return Ok(chapter("Wear scar", &words));
     };
-    let scar = fields.field("worn_depth", last)?;
-    let most = scar.values.iter().copied().fold(0.0, f64::max);
+    let is_own = OWN_DEPTHS.iter().all(|name| fields.has(name));
+    let section = Section::of(view);
+    let mut figures = Vec::new();
+    for scar in if is_own { &OWN[..] } else { &TOGETHER[..] } {
+        figures.extend(scar_figures(view, &section, scar, last)?);
+    }
+    figures.extend(debris(view, &section, last)?);
+    let worn = view.results.record.end.as_ref().and_then(|end| end.worn_by_layer.as_ref());
+    let lost =
+        worn.map_or_else(Vec::new, |worn| volumes_by_layer(worn, |lost| view.number(lost, "length^3")));
+    let lost: Vec<(String, Markup)> = lost.into_iter().map(|(name, lost)| (name, html! { (lost) })).collect();
+    let heading = if is_own { "Wear scars" } else { "Wear scar" };
+    Ok(chapter(heading, &html! { (side_by_side(&figures)) @if !lost.is_empty() { (pairs(&lost)) } }))
+}
+
+/// Sections of a scar through the run, and its map at the end.
+fn scar_figures(
+    view: &Overview<'_>,
+    section: &Section,
+    scar: &Scar,
+    last: usize,
+) -> Result<[Markup; 2], Failure> {
+    let fields = &view.results.fields;
+    let depth = fields.field(scar.field, last)?;
+    let most = depth.values.iter().copied().fold(0.0, f64::max);
     let mut window = Window::new(fields.cells());
-    window.widen(&scar);
+    window.widen(&depth);
     let part = window.part();
-    let value = |[i, j]: [usize; 2]| if scar.at(i, j) > 0.0 { scar.at(i, j) } else { f64::NAN };
+    let value = |[i, j]: [usize; 2]| if depth.at(i, j) > 0.0 { depth.at(i, j) } else { f64::NAN };
     let image = part.values([0.0, most], value)?;
+    let what = format!("wear depth of {}", scar.of);
     let map = Map {
         bar: Some((view.label("wear depth", "length"), [0.0, most])),
-        ..Map::of_surface("wear depth", |name| view.label(name, "length"), part.edges_in(fields), image)
+        ..Map::of_surface(&what, |name| view.label(name, "length"), part.edges_in(fields), image)
     };
-    let section = Section::of(view);
     let mut profiles = Vec::new();
     for position in scars(view) {
-        profiles.push((fields.steps[position], section.values(&fields.field("worn_depth", position)?)));
+        profiles.push((fields.steps[position], section.values(&fields.field(scar.field, position)?)));
     }
     let values: Vec<&[f64]> = profiles.iter().map(|(_, values)| values.as_slice()).collect();
     let [low, high] = seen(&section.along, &values);
@@ -55,33 +93,22 @@ pub fn wear(view: &Overview<'_>) -> Result<Markup, Failure> {
         })
         .collect();
     let axes = [view.label(section.name(), "length"), view.label("wear depth", "length")];
-    let debris = debris(view, &section, last, [low, high])?;
-    let figures = [
-        Chart::new("wear depth along a line through the contact", axes, curves)
-            .figure("Wear depth of both bodies together, along a line through the middle."),
-        figure_of(&map.drawing()?.in_page(), "Wear depth at the end."),
-    ];
-    let figures: Vec<Markup> = figures.into_iter().chain(debris).collect();
-    let worn = view.results.record.end.as_ref().and_then(|end| end.worn_by_layer.as_ref());
-    let lost =
-        worn.map_or_else(Vec::new, |worn| volumes_by_layer(worn, |lost| view.number(lost, "length^3")));
-    let lost: Vec<(String, Markup)> = lost.into_iter().map(|(name, lost)| (name, html! { (lost) })).collect();
-    Ok(chapter("Wear scar", &html! { (side_by_side(&figures)) @if !lost.is_empty() { (pairs(&lost)) } }))
+    Ok([
+        Chart::new(&format!("{what} along a line through the contact"), axes, curves)
+            .figure(&format!("Wear depth of {}, along a line through the middle.", scar.of)),
+        figure_of(&map.drawing()?.in_page(), &format!("Wear depth of {} at the end.", scar.of)),
+    ])
 }
 
 /// The wear depth at the end, the debris in it, and what is open between the two, along the line; `None` where no debris is kept.
-fn debris(
-    view: &Overview<'_>,
-    section: &Section,
-    last: usize,
-    [low, high]: [usize; 2],
-) -> Result<Option<Markup>, Failure> {
+fn debris(view: &Overview<'_>, section: &Section, last: usize) -> Result<Option<Markup>, Failure> {
     let fields = &view.results.fields;
     if !fields.has("debris") {
         return Ok(None);
     }
     let worn = section.values(&fields.field("worn_depth", last)?);
     let debris = section.values(&fields.field("debris", last)?);
+    let [low, high] = seen(&section.along, &[&worn, &debris]);
     let curve = |value: &dyn Fn(usize) -> f64, name: &str, colour: usize| {
         Curve::line((low..=high).map(|k| [section.along[k], value(k)]).collect(), name, colour)
     };
