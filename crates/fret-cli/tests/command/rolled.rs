@@ -49,7 +49,10 @@ fn what_a_contact_does_as_it_rolls_is_told_at_the_end_and_on_the_page() {
     ] {
         assert!(page.contains(words), "the page lacks {words:?}");
     }
-    assert!(!page.contains("<h2>Fretting loop") && !page.contains("<th>creepage y"), "what is not there is not told");
+    assert!(
+        !page.contains("<h2>Fretting loop") && !page.contains("<th>creepage y"),
+        "what is not there is not told"
+    );
     assert!(!page.contains("NaN"), "every number is one");
     crate::shown::assert_stands_alone(&page);
     crate::shown::assert_balanced(&page);
