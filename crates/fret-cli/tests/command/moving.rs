@@ -69,7 +69,7 @@ impl Page {
 
     /// The frame of a chart.
     fn axes(&self, chart: &str) -> Vec<f64> {
-        let chart = self.text.split(&format!("aria-label=\"{chart}\"")).nth(1).expect("a chart");
+        let chart = self.text.split(&format!("aria-label=\"{chart}\"")).nth(1).unwrap();
         let axes = chart.split("data-axes=\"").nth(1).unwrap().split('"').next().unwrap();
         serde_json::from_str(axes).unwrap()
     }
