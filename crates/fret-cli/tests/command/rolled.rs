@@ -71,7 +71,7 @@ fn steady_states_make_a_tractive_curve() {
     assert_eq!(answer.code, Some(0), "{}", answer.err);
     assert_eq!(bench.fret(&["report", "run"]).code, Some(0));
     let page = bench.text("run/report.html");
-    let chart = page.split("aria-label=\"tangential force over creepage\"").nth(1).expect("a tractive curve");
+    let chart = page.split("aria-label=\"tangential force over creepage\"").nth(1).unwrap();
     let chart = chart.split("</svg>").next().unwrap();
     assert_eq!(chart.matches("<circle class=\"dot").count(), 3, "a point for each steady state");
     assert!(!page.contains("creepage x over distance rolled"), "the way to a steady state tells nothing");

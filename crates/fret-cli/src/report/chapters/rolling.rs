@@ -5,11 +5,15 @@ use maud::{Markup, html};
 use super::loading::{loop_curves, stick_fraction};
 use super::loop_table::loop_table;
 use crate::drawing::chart::{Chart, Curve, Stroke, joined};
+use crate::drawing::scale::ends;
 use crate::figures::capitalised;
 use crate::report::Measured;
 use crate::report::html::{chapter, side_by_side, table};
 use crate::report::overview::Overview;
 use crate::report::rolled::Rolled;
+
+/// What changes by less than this fraction of itself along the way does not change.
+const SEEN: f64 = 1e-6;
 
 /// The chapter, in place of the fretting loop; nothing where nothing rolls.
 pub fn rolling(view: &Overview<'_>) -> Markup {
@@ -93,6 +97,10 @@ fn over_distance(view: &Overview<'_>, rolled: &Rolled) -> Vec<Markup> {
     };
     for column in &rolled.columns {
         let (name, values) = (column.in_words(), rolled.where_it_rolls(history.column(column.name)));
+        let [low, high] = ends(values[from..to].iter().copied());
+        if high - low <= SEEN * low.abs().max(high.abs()) {
+            continue; // prescribed, and told above
+        }
         let points = joined(&rolled.distance[from..to], &values[from..to]);
         let axes = [view.label("distance rolled", "length"), view.label(&name, column.unit)];
         let chart = Chart::new(&format!("{name} over distance rolled"), axes, vec![Curve::plain(points)]);
