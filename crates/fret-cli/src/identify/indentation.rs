@@ -4,7 +4,8 @@ use fret_core::identify::{self, Constant, Indentation, IndentationRequest, Numbe
 use maud::{Markup, html};
 use serde_json::{Map, Value, json};
 
-use super::record::{of_constant, rows_in_words};
+use super::constant::of_constant;
+use super::record::rows_in_words;
 use super::{Identified, case_with, dotted, value_of};
 use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::scale::Label;

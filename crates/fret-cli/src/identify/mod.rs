@@ -1,6 +1,7 @@
 //! A measured log, identified by a case: what the core finds (`fret_core::identify`), as a record, a text, a table and a page; of fretting loops,
 //! and of an indentation (`indentation.rs`).
 
+mod constant;
 pub mod indentation;
 mod over_cycles;
 mod page;

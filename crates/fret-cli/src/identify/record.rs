@@ -1,8 +1,9 @@
 //! An identification as `identified.json` has it.
 
-use fret_core::identify::{Constant, Cycle, Identification};
+use fret_core::identify::{Cycle, Identification};
 use serde_json::{Map, Value, json};
 
+use super::constant::of_constant;
 use super::over_cycles;
 use super::repeated;
 use super::table::COLUMNS;
@@ -40,20 +41,6 @@ pub fn record(found: &Identification) -> Value {
         "computed": {"displacement": along(0), "force": along(1), "shift": along(2)},
         "notes": found.notes,
     })
-}
-
-/// A fitted constant.
-pub fn of_constant(constant: &Constant) -> Map<String, Value> {
-    let [low, high] = constant.interval;
-    let entries = [
-        ("name", json!(constant.name)),
-        ("unit", json!(constant.unit)),
-        ("value", json!(constant.value)),
-        ("low", json!(low)),
-        ("high", json!(high)),
-        ("told", json!(constant.told)),
-    ];
-    entries.map(|(key, value)| (key.to_owned(), value)).into_iter().collect()
 }
 
 /// A cycle by the names of the columns of the table.

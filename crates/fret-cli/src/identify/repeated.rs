@@ -5,7 +5,7 @@ use fret_core::units::Units;
 use maud::{Markup, html};
 use serde_json::{Value, json};
 
-use super::record::of_constant;
+use super::constant::of_constant;
 use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::scale::Label;
 use crate::figures::figure;
