@@ -170,7 +170,7 @@ def pulled_back(
 def identify(
     log: tuple[str, bytes],
     case: Case,
-    asked: tuple[list[tuple[str, str]], list[tuple[str, str]], float | None, str | None, bool],
+    asked: tuple[list[tuple[str, str]], list[tuple[str, str]], float | None, int | None, str | None, bool],
     threads: int | None,
 ) -> tuple[str, str]: ...
 def identify_indentation(

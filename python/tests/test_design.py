@@ -176,7 +176,8 @@ def test_a_limit_moves_with_a_number_and_a_number_is_an_objective() -> None:
 
 
 def test_what_stands_for_a_limit_is_checked() -> None:
-    for side in ({}, {YOUNG: math.inf}, "high"):
+    wrong: list[Any] = [{}, {YOUNG: math.inf}, "high"]
+    for side in wrong:
         with pytest.raises((ValueError, TypeError), match="limits"):
             fretting.design(ball(90e9), by={YOUNG: (50e9, 400e9)}, minimize=YOUNG, limits={"approach": (None, side)})
 

@@ -44,6 +44,18 @@ def test_columns_by_number_and_shuffled_rows(tmp_path: Path) -> None:
         fretting.identify(written(tmp_path, "\n".join(LOG.splitlines()[:5] + shuffled)), case=CASE)
 
 
+def test_the_fit_is_repeated_over_the_test() -> None:
+    log = ROOT / "examples" / "rig" / "test_12.csv"
+    found = fretting.identify(log, case=CASE, every=2)
+    cycles = found.cycles["cycle"]
+    assert [fit["cycle"] for fit in found.fits] == list(cycles[::2])
+    # As the one fit above: the log was made with a friction coefficient of 0.6.
+    assert all(abs(fit["constants"]["friction coefficient"].value / 0.6 - 1.0) < 0.01 for fit in found.fits)
+    assert fretting.identify(log, case=CASE).fits == []
+    with pytest.raises(ValueError, match="must be at least 1"):
+        fretting.identify(log, case=CASE, every=0)
+
+
 def test_a_log_that_is_no_file_is_refused(tmp_path: Path) -> None:
     with pytest.raises(fretting.MissingFileError):
         fretting.identify(tmp_path / "none.csv", case=CASE)
