@@ -253,6 +253,14 @@ fn unlike_rollers_creep_as_contacts_do() {
         );
         // four digits are printed
         assert!((found - expected).abs() < 1e-7, "{found}");
+        // Friction takes what the force and the moment of the pressure put in, by distance, where they nearly cancel, too: to what 162 cells over
+        // the contact leave unresolved of the larger.
+        let [pulled, pressed] = [last.tangential_force[0] * -found, last.tilt_moment[0] / 25.0];
+        let dissipated = last.rolling_friction.unwrap();
+        println!("dissipated {dissipated:.4e}: by the force {pulled:.4e}, by the pressure {pressed:.4e}");
+        assert!(pressed.abs() > 0.01 * dissipated);
+        let larger = pulled.abs().max(pressed.abs());
+        assert!((pulled + pressed - dissipated).abs() < 5e-3 * larger, "{pulled} + {pressed}, {dissipated}");
         if let Some((pressure, adhesion)) = told {
             assert!((last.max_pressure - pressure).abs() < 0.06 && last.stick_cells == adhesion, "{last:?}");
         }

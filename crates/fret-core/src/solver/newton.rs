@@ -24,6 +24,7 @@ const MOST_ROUNDS_TO_CIRCLES: usize = 3;
 /// hardly ever settle, and where the response is stiff each of them is dear.
 const LOST_WITHOUT_GAIN: usize = 3;
 const LOST_WITHOUT_GAIN_STIFF: usize = 2;
+const LOST_WITHOUT_GAIN_IN_STIFF_PERIOD: usize = 1;
 
 /// Solves the equations from feasible `tractions` with their `displacements`; both end at the solution, or at what was reached.
 ///
@@ -43,8 +44,11 @@ pub fn solve(
     let mut circles_left = MOST_ROUNDS_TO_CIRCLES;
     operators.linear.begin();
     // Shear alone has no other way to be left to; in the staggered scheme it is half a step.
-    let stiff = operators.preconditioner.is_stiff();
-    let patience = if stiff { LOST_WITHOUT_GAIN_STIFF } else { LOST_WITHOUT_GAIN };
+    let patience = match (operators.preconditioner.is_stiff(), operators.preconditioner.is_in_period()) {
+        (false, _) => LOST_WITHOUT_GAIN,
+        (true, false) => LOST_WITHOUT_GAIN_STIFF,
+        (true, true) => LOST_WITHOUT_GAIN_IN_STIFF_PERIOD,
+    };
     let has_another_resort = problem.pressure == Pressure::Unknown;
     if problem.give() != [0.0; 3] {
         // Beside a compliant rig single precision would lose the contact's own displacement.

@@ -34,15 +34,13 @@ const EDGE_OF_MEASURED: f64 = 0.25;
 const SCATTER: f64 = 0.4;
 /// The same of the largest pressure where shear acts on it: of 54 coupled contacts three err by 0.44 to 0.65 of it.
 const SCATTER_OF_COUPLED_PEAK: f64 = 0.6;
-/// The same of shift and energy, which slip makes in fewer cells.
+/// The same of shift, of energy and of the wear that goes with it, which slip makes in fewer cells.
 const SCATTER_OF_SHIFT: f64 = 1.0;
 /// The same where shear acts on pressure: of 36 shifts two err by 1.3 and 1.5 of it.
 const SCATTER_OF_COUPLED_SHIFT: f64 = 1.4;
 const SCATTER_OF_ENERGY: f64 = 4.0;
 /// The same of a steady state of rolling.
 const SCATTER_OF_ROLLING: f64 = 0.2;
-/// The same of wear, which is where slip is.
-const SCATTER_OF_WEAR: f64 = 4.0;
 /// Edge of contact where a body ends: it ends at the border of a cell.
 const END_OF_A_BODY: f64 = 0.5;
 /// Edge of what sticks: counted by cells, in steps of the load.
@@ -58,6 +56,8 @@ const ENERGY: f64 = 1.65;
 const CUSP: f64 = 3.5;
 /// The same of a steady state of rolling, which goes on by a cell: of first order.
 const ROLLING: f64 = 2.5;
+/// The same of the largest depth worn off, which is that of one cell: of 12 in partial and gross slip one errs by 1.65 of it.
+const WORN_DEPTH: f64 = 2.5;
 /// Factor on these for increments of first order.
 const END_POINTS: f64 = 2.5;
 
@@ -202,9 +202,8 @@ impl Scene {
         let scatter = match quantity {
             Quantity::Shift if self.is_coupled => SCATTER_OF_COUPLED_SHIFT,
             Quantity::Shift => SCATTER_OF_SHIFT,
-            Quantity::DissipatedEnergy => SCATTER_OF_ENERGY,
+            Quantity::DissipatedEnergy | Quantity::WornVolume | Quantity::MaxWornDepth => SCATTER_OF_ENERGY,
             Quantity::Creepage | Quantity::Spin | Quantity::RollingFriction => SCATTER_OF_ROLLING,
-            Quantity::MaxWornDepth | Quantity::WornVolume => SCATTER_OF_WEAR,
             Quantity::MaxPressure if self.is_coupled => SCATTER_OF_COUPLED_PEAK,
             _ => SCATTER,
         };
@@ -243,6 +242,7 @@ impl Scene {
                     Quantity::Shift if self.is_coupled => SHIFT,
                     Quantity::DissipatedEnergy if self.is_coupled => ENERGY,
                     Quantity::Creepage | Quantity::Spin | Quantity::RollingFriction => ROLLING,
+                    Quantity::MaxWornDepth => WORN_DEPTH,
                     _ => UNKNOWN_ORDER,
                 };
                 (value, Some(least.max(increments * share * apart)))

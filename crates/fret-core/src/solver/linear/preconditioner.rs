@@ -55,6 +55,7 @@ pub struct Preconditioner {
     workspace: SharedWorkspace,
     cells: usize,
     stiff: bool,
+    in_period: bool,
     /// Passes so far.
     pub passes: usize,
 }
@@ -220,6 +221,7 @@ impl Preconditioner {
             softest,
             shear_axis,
             stiff,
+            in_period: response.is_periodic(),
             fields: FieldsOfRegion::default(),
             workspace: SharedWorkspace::default(),
             cells: part[0] * part[1],
@@ -231,6 +233,11 @@ impl Preconditioner {
     #[must_use]
     pub fn working_in(self, workspace: &SharedWorkspace) -> Self {
         Self { workspace: workspace.clone(), ..self }
+    }
+
+    /// Whether the region is a period.
+    pub fn is_in_period(&self) -> bool {
+        self.in_period
     }
 
     /// Whether short waves on the region meet a response much stiffer than long ones do.
