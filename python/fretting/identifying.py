@@ -157,7 +157,7 @@ def identify(
     cycle : float, optional
         Number of the cycle that is fitted. Default: the last whole one.
     every : int, optional
-        Repeat the fit on the first whole cycle of every so many, over the whole test; see ``fits``.
+        Repeat the fit on the first whole cycle of every so many numbers of cycles, over the whole test; see ``fits``.
     fit : str, optional
         A key of the case that is fitted too, such as ``"lower.substrate.young"``.
     strict : bool, default False

@@ -365,7 +365,7 @@ pub struct IdentifyArguments {
     /// The cycle to fit, by its number [default: the last whole one]
     #[arg(long, value_name = "N")]
     pub cycle: Option<f64>,
-    /// Repeat the fit on the first whole cycle of every N, over the whole test
+    /// Repeat the fit on the first whole cycle of every N cycle numbers, over the whole test
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), conflicts_with = "indentation")]
     pub every: Option<u32>,
     /// Also fit one number of the case, such as lower.substrate.young; of an indentation, numbers of bodies and profile, once for each

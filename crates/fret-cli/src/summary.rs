@@ -123,8 +123,8 @@ impl Summary<'_> {
                 self.length(datum)
             );
         }
-        if pressure_is_unbounded(&self.plan.case.profile.shapes) {
-            let none = "none: at a sharp edge or a tip it grows with the number of cells";
+        if pressure_is_unbounded(&self.plan.case, self.plan.grid.cells()) {
+            let none = "none: at a sharp edge, a tip or a crease it grows with the number of cells";
             let _ = writeln!(table, "{:<NAMES$}{none}", "limit of max pressure");
         }
         for (name, value) in [

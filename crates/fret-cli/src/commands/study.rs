@@ -111,7 +111,8 @@ pub fn studied(
     let mut reference = against.reference(&study).ok_or_else(|| {
         Failure::Defect("a solved study has no finest level".to_owned()) // `all_levels` fails without it
     })?;
-    if pressure_is_unbounded(&plan.case.profile.shapes) && !is_given {
+    let finest = study.resolutions().cells.last().copied().unwrap_or(plan.case.cells);
+    if pressure_is_unbounded(&plan.case, finest) && !is_given {
         reference = reference.without_limit(Quantity::MaxPressure);
     }
     let lines = study.judged_while(&reference, || !interrupt::is_asked()).ok_or_else(|| {

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::constant::of_constant;
 use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::scale::Label;
-use crate::figures::figure;
+use crate::figures::{counted, figure};
 
 /// For programs.
 pub fn record(found: &Identification) -> Vec<Value> {
@@ -62,11 +62,11 @@ pub fn in_words(found: &Identification) -> Vec<String> {
         let fits = || found.repeated.iter().filter_map(|fit| Some((fit.cycle, told(fit, number)?.value)));
         if let (Some((from, first)), Some((to, last))) = (fits().next(), fits().next_back()) {
             lines.push(format!(
-                "  {:<22} {} in cycle {from} to {} in cycle {to} ({} fits)",
+                "  {:<22} {} in cycle {from} to {} in cycle {to} ({})",
                 constant.name,
                 figure(first),
                 figure(last),
-                fits().count()
+                counted(fits().count(), "fit")
             ));
         }
     }

@@ -61,8 +61,11 @@ impl<'a> Overview<'a> {
         // A state to start from may be worn, which a plan that was read back does not tell.
         let is_worn = table.column("max_worn_depth").iter().any(|depth| *depth > 0.0);
         let normal_form = NormalForm::of(results.plan()).filter(|_| !is_worn);
+        let rolled = Rolled::of(results);
         let shifts = table.column("shift_x").iter().zip(table.column("shift_y"));
-        let tangential_form = normal_form.as_ref().zip(direction).and_then(|(normal, direction)| {
+        // The closed forms of partial slip are those of bodies that stay opposite each other.
+        let stays = normal_form.as_ref().filter(|_| rolled.is_none());
+        let tangential_form = stays.zip(direction).and_then(|(normal, direction)| {
             TangentialForm::of(results.plan(), normal, (direction, &history), STEADY)
         });
         Self {
@@ -73,7 +76,7 @@ impl<'a> Overview<'a> {
             normal_form,
             tangential_form,
             twists: twists(results),
-            rolled: Rolled::of(results),
+            rolled,
             spans: spans(table.column("stage"), results.case().stages.len()),
         }
     }
@@ -103,11 +106,16 @@ impl<'a> Overview<'a> {
         }
     }
 
-    /// The tangential load: force and motion of the loop, or moment and rotation where that is what moves; of a contact that rolls, force and
-    /// distance rolled.
+    /// The way that it rolled, where it does so in the last increment.
+    pub fn rolls_to_the_end(&self) -> Option<&Rolled> {
+        self.rolled.as_ref().filter(|rolled| rolled.rolls.last() == Some(&true))
+    }
+
+    /// The tangential load: force and motion of the loop, or moment and rotation where that is what moves; of a contact that rolls to the end, force
+    /// and distance rolled.
     pub fn loop_points(&self) -> Vec<[f64; 2]> {
         let table = &self.results.table;
-        if let Some(rolled) = self.rolled.as_ref().filter(|_| self.direction.is_some()) {
+        if let Some(rolled) = self.rolls_to_the_end().filter(|_| self.direction.is_some()) {
             joined(&rolled.distance, &self.tangential)
         } else if self.twists {
             joined(table.column("twist"), table.column("twist_moment"))
@@ -121,7 +129,7 @@ impl<'a> Overview<'a> {
 
     /// Names of the axes of [`Self::loop_points`].
     pub fn labels_of_loop(&self) -> [Label; 2] {
-        if self.rolled.is_some() && self.direction.is_some() {
+        if self.rolls_to_the_end().is_some() && self.direction.is_some() {
             [self.label("distance rolled", "length"), self.label("tangential force", "force")]
         } else if self.twists || self.direction.is_some() {
             self.loop_labels(self.twists)

@@ -31,6 +31,13 @@ impl MeasuredSurface {
     pub fn on(&self, cells: [usize; 2]) -> Array2<f64> {
         resampled(&self.heights, [&self.places[0], &self.places[1]], &self.window, cells)
     }
+
+    /// Whether cells are finer than the points, between which the surface is straight.
+    pub fn is_coarser_than(&self, cells: [usize; 2]) -> bool {
+        let within =
+            |axis: usize| self.places[axis].iter().filter(|place| self.window[axis].contains(place)).count();
+        (0..2).any(|axis| cells[axis] > 1 && cells[axis] > within(axis))
+    }
 }
 
 /// Mean height of every cell: that of the surface which is linear between the points (bilinear in two dimensions). `places` are those

@@ -107,6 +107,11 @@ impl Heights {
         self.surface.is_some()
     }
 
+    /// Whether they are means of a surface whose points lie farther apart than cells of so many along x and y.
+    pub fn are_coarser_than(&self, cells: [usize; 2]) -> bool {
+        self.surface.as_ref().is_some_and(|surface| surface.is_coarser_than(cells))
+    }
+
     /// Measured points that are kept beside the cells.
     pub fn points(&self) -> usize {
         self.surface.as_ref().map_or(0, |surface| surface.heights.len())

@@ -293,10 +293,17 @@ fn known_order(quantity: Quantity, kind: Kind) -> Option<f64> {
 }
 
 /// Whether a quantity has an order in what is refined. Areas have none over the cells: it depends on where the edge lies between the
-/// centres of cells, and scatters.
+/// centres of cells, and scatters; so does the steady state of a contact that rolls by whole cells.
 pub(super) fn has_order(quantity: Quantity, kind: Kind) -> bool {
-    let is_area = matches!(quantity, Quantity::ContactArea | Quantity::StickArea);
-    !(is_area && matches!(kind, Kind::Cells | Kind::Together))
+    let scatters = matches!(
+        quantity,
+        Quantity::ContactArea
+            | Quantity::StickArea
+            | Quantity::Creepage
+            | Quantity::Spin
+            | Quantity::RollingFriction
+    );
+    !(scatters && matches!(kind, Kind::Cells | Kind::Together))
 }
 
 /// `|a - b| / |b|` over the cells of all pairs; `None` where there is nothing to compare with.

@@ -54,7 +54,7 @@ pub enum ResolutionError {
     /// A contact that the cells hardly show.
     #[error(
         "about {0:.1} cells in the contact radius are too few for error bars to hold; at least {CELLS_IN_RADIUS}: more cells, or a \
-         smaller grid (size = \"auto\" finds it)"
+         smaller grid (but for heights size = \"auto\" finds it)"
     )]
     FewCells(f64),
     /// Heights given cell by cell.

@@ -59,9 +59,9 @@ pub fn loading(view: &Overview<'_>) -> Markup {
     chapter("Loading", &side_by_side(&figures))
 }
 
-/// Tangential force over displacement, or moment over rotation where that is what moves; nothing of a contact that rolls.
+/// Tangential force over displacement, or moment over rotation where that is what moves; nothing of a contact that rolls to the end.
 pub fn fretting_loop(view: &Overview<'_>) -> Markup {
-    if view.rolled.is_some() || (view.direction.is_none() && !view.twists) {
+    if view.rolls_to_the_end().is_some() || (view.direction.is_none() && !view.twists) {
         return html! {};
     }
     let axes = view.labels_of_loop();

@@ -87,12 +87,18 @@ fn over_distance(view: &Overview<'_>, rolled: &Rolled) -> Vec<Markup> {
     let mut figures = Vec::new();
     if view.direction.is_some() {
         let caption = "Tangential force along the load over the distance that the contact has rolled.";
-        let chart =
-            Chart::new("tangential force over distance rolled", view.labels_of_loop(), loop_curves(view));
+        let curves = match view.rolls_to_the_end() {
+            Some(_) => loop_curves(view),
+            None => vec![Curve::plain(joined(&rolled.distance, &rolled.where_it_rolls(&view.tangential)))],
+        };
+        let axes = [view.label("distance rolled", "length"), view.label("tangential force", "force")];
+        let chart = Chart::new("tangential force over distance rolled", axes, curves);
         figures.push(chart.figure(caption));
     }
-    let ([from, to], called) = match view.cycles().last() {
-        Some(cycle) => (cycle.span, " The last cycle."),
+    let cycles = view.cycles();
+    let that_roll = cycles.iter().rev().find(|cycle| (cycle.span[0]..cycle.span[1]).any(passing));
+    let ([from, to], called) = match that_roll {
+        Some(cycle) => (cycle.span, " The last cycle that rolls."),
         None => ([0, history.rows()], ""),
     };
     for column in &rolled.columns {

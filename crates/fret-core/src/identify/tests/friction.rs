@@ -162,8 +162,8 @@ fn a_log_tells_friction_from_cycle_to_cycle() {
     }
 }
 
-/// The fit repeated on one cycle in two of a test in partial slip whose friction falls from 0.66 to 0.5, with a cycle that has lost its middle:
-/// each gives its own cycle's constants, as a clean loop gives them (40 cells and the interpolated loop).
+/// The fit repeated every 200 cycles of a test in partial slip, of which one in a hundred is in the log; its friction falls from 0.66 to 0.5, and one has
+/// lost its middle: each gives its own cycle's constants, as a clean loop gives them (40 cells and the interpolated loop).
 #[test]
 fn the_fit_repeated_over_a_test_follows_its_friction() {
     let friction = |cycle: usize| 0.7 - 0.04 * cycle as f64;
@@ -172,22 +172,26 @@ fn the_fit_repeated_over_a_test_follows_its_friction() {
         let rig = Rig { friction: friction(cycle), noise: 0.0, drift: 0.0, ..PARTIAL };
         for (row, [d, q]) in rig.rows(&mut Pcg64Mcg::new(1)).into_iter().enumerate() {
             if cycle != 3 || !(40..110).contains(&row) {
-                let _ = writeln!(log, "{cycle},{:.9},{q:.9}", d * 1e3);
+                let _ = writeln!(log, "{},{:.9},{q:.9}", 100 * cycle, d * 1e3);
             }
         }
     }
-    let found = identified(&log, &Request { every: Some(2), ..Request::default() });
+    let found = identified(&log, &Request { every: Some(200), ..Request::default() });
     let cycles: Vec<f64> = found.repeated.iter().map(|fit| fit.cycle).collect();
     // Of the third and fourth the first whole one.
-    assert_eq!(cycles, [1.0, 4.0, 5.0]);
+    assert_eq!(cycles, [100.0, 400.0, 500.0]);
     for fit in &found.repeated {
         let [slips, rig] = [&fit.constants[0], &fit.constants[1]];
         assert!(slips.told && rig.told && fit.why.is_none(), "{fit:?}");
-        let truth = friction(fit.cycle as usize);
+        let truth = friction(fit.cycle as usize / 100);
         assert!((slips.value / truth - 1.0).abs() < 0.01, "{fit:?}");
         assert!((rig.value / PARTIAL.stiffness - 1.0).abs() < 0.01, "{fit:?}");
     }
     // The last one is the fitted one.
     assert_eq!(found.repeated[2].constants, found.constants);
     assert!(identified(&log, &Request::default()).repeated.is_empty());
+    // The third alone is a span without a whole loop.
+    let found = identified(&log, &Request { every: Some(100), ..Request::default() });
+    let [.., third, _, _] = &found.repeated[..] else { panic!("{found:?}") };
+    assert!(third.cycle == 300.0 && third.constants.is_empty() && third.why.is_some(), "{third:?}");
 }

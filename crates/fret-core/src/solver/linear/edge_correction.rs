@@ -25,6 +25,8 @@ pub struct EdgeCorrection {
     whole: [usize; 2],
     part: [usize; 2],
     mirrored: [bool; 2],
+    /// Whether the region is a period: beyond a side that is no mirror lies the other one, and a mirror has another one on the other side.
+    repeats: bool,
     /// The contact that it is ready for.
     contact: ContactSet,
     /// Places of the cells of its edge, and their groups.
@@ -34,15 +36,15 @@ pub struct EdgeCorrection {
 }
 
 impl EdgeCorrection {
-    /// Of the circulant response and its kernel, on a region whose `part` in front of its mirrors is worked on.
+    /// Of the circulant response and its kernel, on a region whose `part` in front of its mirrors is worked on, and which `repeats` or does not.
     pub fn new(
         forward: Inverse,
         kernel: Vec<f64>,
         [whole, part]: [[usize; 2]; 2],
-        mirrored: [bool; 2],
+        (mirrored, repeats): ([bool; 2], bool),
     ) -> Self {
         let (contact, edge, factor) = (ContactSet::default(), Vec::new(), Vec::new());
-        Self { forward, kernel, whole, part, mirrored, contact, edge, factor }
+        Self { forward, kernel, whole, part, mirrored, repeats, contact, edge, factor }
     }
 
     /// Makes ready for a contact.
@@ -83,12 +85,15 @@ impl EdgeCorrection {
         let [rows, columns] = self.part;
         let mut inside = vec![false; rows * columns];
         contact.cells().for_each(|cell| inside[cell] = true);
-        // Behind a mirror lies the cell itself, beyond a side that is none nothing.
+        // Behind a mirror lies the cell itself; beyond a side that is none the other one of a period, or nothing.
         let is_open = |cell: usize, axis: usize, up: bool| {
             let (index, stride) = if axis == 0 { (cell / columns, columns) } else { (cell % columns, 1) };
+            let round = (self.part[axis] - 1) * stride;
             match (up, index) {
-                (false, 0) => !self.mirrored[axis],
-                (true, last) if last + 1 == self.part[axis] => self.part[axis] > 1,
+                (false, 0) if self.mirrored[axis] => false,
+                (false, 0) => !(self.repeats && inside[cell + round]),
+                (true, last) if last + 1 == self.part[axis] && self.mirrored[axis] => !self.repeats,
+                (true, last) if last + 1 == self.part[axis] => !(self.repeats && inside[cell - round]),
                 (false, _) => !inside[cell - stride],
                 (true, _) => !inside[cell + stride],
             }
@@ -207,7 +212,15 @@ mod tests {
         let (mut unit, mut kernel) = (vec![0.0; whole[0] * whole[1]], vec![0.0; whole[0] * whole[1]]);
         unit[0] = 1.0;
         plain.apply(&mut plain.workspace(), &[&unit], &mut [&mut kernel]);
-        (EdgeCorrection::new(Inverse::new(product, single), kernel, [whole, part], symmetry.axes()), columns)
+        (
+            EdgeCorrection::new(
+                Inverse::new(product, single),
+                kernel,
+                [whole, part],
+                (symmetry.axes(), false),
+            ),
+            columns,
+        )
     }
 
     /// Where every cell of the edge is a group of its own nothing is left over there, with and without mirrors, in either precision and any
@@ -254,6 +267,23 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// A contact all across a period has its edges along it alone, wherever the period is cut, and in front of its mirrors.
+    #[test]
+    fn the_seam_of_a_period_is_no_edge() {
+        let edges = |symmetry: Symmetry, rows: std::ops::Range<usize>| {
+            let (correction, _) = tested(symmetry, [12, 4], false);
+            let mut correction = EdgeCorrection { repeats: true, ..correction };
+            correction.prepare(&ContactSet::of(48, |cell| rows.contains(&((cell / 4 + 5) % 12))));
+            correction.edge.len()
+        };
+        for begin in 0..5 {
+            assert_eq!(edges(Symmetry::NONE, begin..begin + 7), 8);
+        }
+        let mirrored = Symmetry { odd_shear: [Some(0), Some(1)] };
+        assert_eq!([edges(mirrored, 5..9), edges(mirrored, 0..12)], [4, 0]);
+        assert_eq!(edges(Symmetry::NONE, 0..12), 0);
     }
 
     /// Long edges are put together in squares; a matrix that is not positive corrects nothing.

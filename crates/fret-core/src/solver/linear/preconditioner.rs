@@ -21,6 +21,8 @@ mod together;
 /// A pair is stiff at the surface when the longest waves of a region meet this many times the compliance times wavenumber that
 /// the shortest ones meet: a thin coating more than about five times stiffer than what lies below.
 const STIFF_ABOVE: f64 = 4.0;
+/// A period of so many times as many cells along one axis as along the other is a strip.
+const STRIP: usize = 8;
 /// In a periodic problem, shear takes the displacement of the pressure into account where `zx^2 / (zz xx)` of a wave is more than this. On a
 /// half-space it is 0.08 for a Poisson ratio of 0.3, and 0.25 for none; under films a hundred times stiffer up to 0.6: they bend.
 const COUPLED_ABOVE: f64 = 0.3;
@@ -113,9 +115,13 @@ impl CellWaves<'_> {
     }
 }
 
-/// The same of a periodic response `zz` on a `shape` of cells, along the axis that has more of them.
+/// The same of a periodic response `zz` on a `shape` of cells, along the axis that has more of them. In strips edges of contact are straight and
+/// far apart, and what serves a stiff pair costs more than it saves.
 fn is_stiff(zz: &Array2<f64>, shape: [usize; 2]) -> bool {
     let axis = usize::from(shape[1] > shape[0]);
+    if shape[axis] >= STRIP * shape[1 - axis] {
+        return false;
+    }
     let times_k = |wave: usize| wave as f64 * zz[if axis == 0 { [wave, 0] } else { [0, wave] }];
     shape[axis] > 1 && times_k(1) > STIFF_ABOVE * times_k(shape[axis] / 2)
 }
@@ -162,7 +168,12 @@ impl Preconditioner {
             let forward = Symbol { values: normal.view(), parity: Parity::EvenEven };
             let kernel = kernel_of(forward, shape)?;
             let forward = product(&[forward], &[0], &NORMAL_BLOCKS)?;
-            Some(EdgeCorrection::new(forward, kernel, [shape, part], symmetry.axes()))
+            Some(EdgeCorrection::new(
+                forward,
+                kernel,
+                [shape, part],
+                (symmetry.axes(), response.is_periodic()),
+            ))
         } else {
             None
         };
