@@ -65,15 +65,7 @@ class Question:
         """Limits one by one: result, sign of what is too much, value."""
         others = [name for _, _, side in self.sides if isinstance(side, dict) for name in side]
         of = [name for name in dict.fromkeys([*self.weights, *self.limits, *others]) if name not in bounds]
-        for name in of:
-            first, *others = steps(name) or [name]
-            if others and first in table and first != "stress":
-                raise ValueError(f"{name}: not a number of `by`, which has {', '.join(bounds)}")
-        if not of:
-            raise ValueError(
-                "minimize, maximize, limits: expected at least one result in them, such as "
-                "limits={'max_pressure': (None, 1e9)}; numbers of `by` alone need no run"
-            )
+        _check_names(of, table, list(bounds))
         self.results = Results(case, of, list(bounds), threads)
         self.names = [*self.results.of, *self.results.by]
         self.threads = threads
@@ -183,7 +175,7 @@ class Question:
     def alike(self, side: tuple[str, float, Side], values: Reals) -> bool:
         """Whether a result and its limit have the same sign, so that their ratio has a logarithm."""
         name, _, limit = side
-        return self.value_of(limit, values) * self.sum({name: 1.0}, values) > 0.0
+        return self.value_of(limit, values) * float(values[self.names.index(name)]) > 0.0
 
     def value_of(self, limit: Side, values: Reals) -> float:
         """Return the value of a limit."""
@@ -249,3 +241,16 @@ class Question:
     def tried(self) -> str:
         """How many cases were run, in words."""
         return f"{len(self.evaluations)} case{'s' if len(self.evaluations) != 1 else ''}"
+
+
+def _check_names(of: list[str], table: Mapping[str, Any], by: list[str]) -> None:
+    """Refuse a question of no result, and numbers of the case that stand where results do without being of `by`."""
+    for name in of:
+        first, *more = steps(name) or [name]
+        if more and first in table and first != "stress":  # the table and the results below have one name
+            raise ValueError(f"{name}: not a number of `by`, which has {', '.join(by)}")
+    if not of:
+        raise ValueError(
+            "minimize, maximize, limits: expected at least one result in them, such as "
+            "limits={'max_pressure': (None, 1e9)}; numbers of `by` alone need no run"
+        )

@@ -18,7 +18,7 @@ from fretting.history import History
 from fretting.simulation import run
 
 MET = 1e-4
-"""A limit is met that is exceeded by no more than so much of itself, and is active that is as near."""
+"""A limit is met that is exceeded by no more than so much of itself as it is, and is active that is as near."""
 LEFT = 0.02
 """A slope of more than so much, per cent per cent, at what the optimiser takes for the optimum is told."""
 
@@ -81,7 +81,7 @@ def design(
     limits : mapping of str to (least, largest), optional
         Least and largest value of results, or of numbers of ``by``; ``None`` where there is none. In place of a value
         the weights of results and numbers whose sum it is: ``{"max_worn_depth": (None, {THICKNESS: 0.5})}`` lets wear
-        take half of a thickness.
+        take half of a thickness. Objective and limits have at least one result among them.
     tolerance : float
         Relative change of the objective at which the optimum counts as reached.
     iterations : int
