@@ -26,13 +26,14 @@ class Results:
         _core.check_results(self.of)
         self._table = _case.table_from_anywhere(case)
         self._places = [steps(path) for path in self.by]
-        for number, (path, place) in enumerate(zip(self.by, self._places, strict=True)):
-            if place in self._places[:number]:
+        alike = [place(self._table, path) for path in self.by]
+        for number, (path, parts) in enumerate(zip(self.by, self._places, strict=True)):
+            if alike[number] in alike[:number]:
                 raise ValueError(f"by: {path} is named twice")
-            if not isinstance(_at(self._table, place), int | float):
+            if not isinstance(_at(self._table, parts), int | float):
                 raise ValueError(f"by: {path}: no number of the case as it is written; such as 'friction.coefficient'")
         self._threads = threads
-        self.start = [float(_at(self._table, place)) for place in self._places]
+        self.start = [float(_at(self._table, parts)) for parts in self._places]
         """The numbers of the case as it is."""
 
     def at(self, numbers: Reals) -> Table:
@@ -43,8 +44,8 @@ class Results:
                 f"numbers: expected {len(self.by)} of them, in the order of `by`; found shape {given.shape}"
             )
         case = copy.deepcopy(self._table)
-        for place, number in zip(self._places, given, strict=True):
-            put_at(case, place, ".".join(place), float(number))
+        for parts, number in zip(self._places, given, strict=True):
+            put_at(case, parts, ".".join(parts), float(number))
         return case
 
     def values(self, numbers: Reals) -> Reals:
@@ -71,17 +72,30 @@ class Results:
         return np.array([row["value"] for row in rows]), matrix, near
 
 
-def _entry(items: Any, step: str) -> Any:
-    """What a list has at a number, or under the name of a stage."""
-    named = [item for item in items if isinstance(item, dict) and item.get("name") == step]
-    return named[0] if named else items[int(step)]
+def _index(items: Any, step: str) -> int:
+    """Where a list has what a number, or the name of a stage, stands for."""
+    names = [item.get("name") if isinstance(item, dict) else None for item in items]
+    return names.index(step) if step in names else range(len(items))[int(step)]
 
 
-def _at(table: Any, place: list[str]) -> Any:
-    """What stands at a place of a case; None where there is nothing."""
-    for step in place:
+def place(table: Any, path: str) -> tuple[str, ...]:
+    """Return the parts of a path, entries of lists by their numbers: alike for all ways to write one place."""
+    parts = []
+    for step in steps(path):
         try:
-            table = _entry(table, step) if isinstance(table, list | tuple) else table[step]
+            key = _index(table, step) if isinstance(table, list | tuple) else step
+            table = table[key]
+        except (LookupError, TypeError, ValueError):
+            key, table = step, None
+        parts.append(str(key))
+    return tuple(parts)
+
+
+def _at(table: Any, parts: list[str]) -> Any:
+    """What stands at a place of a case; None where there is nothing."""
+    for step in parts:
+        try:
+            table = table[_index(table, step) if isinstance(table, list | tuple) else step]
         except (LookupError, TypeError, ValueError):
             return None
     return table

@@ -62,6 +62,13 @@ def limit_of(name: str, pair: Any) -> Limit:
     return low, high
 
 
+def left(sign: float, limit: float, value: float, unit: float | None) -> float:
+    """How much of a limit is left: the logarithm of its ratio to the value; where there is a unit, the difference."""
+    if unit is None:
+        return sign * math.copysign(1.0, limit) * math.log(limit / value)
+    return sign * (limit - value) / unit
+
+
 def _side(name: str, side: Any) -> Side | None:
     if side is None:
         return None

@@ -69,6 +69,56 @@ def test_an_optimum_at_a_limit_is_that_of_the_closed_form() -> None:
         assert found.slope < 1e-6
 
 
+def softest(start: float, share: float) -> fretting.Design:
+    """The softest half-space under a rigid ball (3 mm, 2 N) whose pressure is no more than a part of its modulus."""
+    case = {
+        **ball(start),
+        "grid": {"cells": [64, 64], "size": [180e-6, 180e-6]},
+        "profile": {"sphere": {"radius": 3e-3}},
+        "load": [{"normal_force": 2.0, "increments": 1}],
+    }
+    limits = {"max_pressure": (None, {YOUNG: share})}
+    return fretting.design(case, by={YOUNG: (20e9, 1000e9)}, minimize=YOUNG, limits=limits)
+
+
+def test_a_limit_that_is_a_sum_is_met_from_all_starts() -> None:
+    """p_0 = w E of Hertz' pressure: E = 6 P / (pi^3 R^2 (1 - nu^2)^2 w^3), from starts on either side of it."""
+    share = 6.3e-3
+    best = 6.0 * 2.0 / (math.pi**3 * 3e-3**2 * (1.0 - POISSON**2) ** 2 * share**3)
+    found = [softest(start, share) for start in (30e9, 40e9, 60e9, 100e9, 400e9, 900e9)]
+    for one in found:
+        # The pressure on the grid is within 1 %, its power within 0.01: E is as the pressure to the third power, and
+        # the price, 1 / (1 - 2/3), moves by 9 times as much as the power.
+        assert one.numbers[YOUNG] == pytest.approx(best, rel=0.03)
+        assert one.prices["max_pressure"] == pytest.approx(3.0, abs=0.09)
+        assert one.results["max_pressure"] == pytest.approx(share * one.numbers[YOUNG], rel=1e-5)
+        # The optimiser meets a limit to 1e-5.
+        assert one.numbers == pytest.approx(found[0].numbers, rel=3e-5)
+    # A price is what a limit that is wider by a thousandth brings; the second order is 6 thousandths of it.
+    wider = softest(100e9, share * math.exp(1e-3)).numbers[YOUNG]
+    assert -math.log(wider / found[3].numbers[YOUNG]) / 1e-3 == pytest.approx(found[3].prices["max_pressure"], rel=6e-3)
+
+
+@pytest.mark.parametrize("start", [1e-5, 0.1])
+def test_a_limit_that_moves_by_a_hundred_times_is_met(start: float) -> None:
+    """The smallest ball whose approach is a part of its radius: 1 mm by Hertz, from one of 10 um and one of 10 cm."""
+    radius = "profile.sphere.radius"
+    modulus = 210e9 / (1.0 - POISSON**2)
+    share = (9.0 * FORCE**2 / (16.0 * 1e-3 * modulus**2)) ** (1 / 3) / 1e-3
+    case = {
+        **ball(210e9),
+        "grid": {"cells": [128, 128], "size": [360e-6, 360e-6]},
+        "profile": {"sphere": {"radius": start}},
+    }
+    found = fretting.design(
+        case, by={radius: (1e-5, 0.1)}, minimize=radius, limits={"approach": (None, {radius: share})}
+    )
+    # The radius is as the approach to a power of 3/4, which the grid has to 1 %.
+    assert found.numbers[radius] == pytest.approx(1e-3, rel=GRID)
+    assert found.results["approach"] == pytest.approx(share * found.numbers[radius], rel=1e-4)
+    assert found.prices["approach"] == pytest.approx(0.75, abs=0.02)
+
+
 def test_bounds_that_hold_an_optimum_are_named() -> None:
     by = {YOUNG: (50e9, 400e9), "load[0].normal_force": (5.0, 15.0)}
     found = fretting.design(ball(90e9), by=by, minimize="max_pressure")
@@ -112,6 +162,55 @@ MODULUS = "lower.coatings[0].young"
 ENERGY = "cycles[0].dissipated_energy"
 
 
+PRESS, RUB = "load[0].normal_force", "load[1].tangential_force[0]"
+
+
+def rubbed(force: float) -> dict[str, Any]:
+    """The coated body, rubbed by a force to one side or the other."""
+    return {**COATED, "load": [COATED["load"][0], {"name": "rub", "tangential_force": [force, 0.0], "increments": 4}]}
+
+
+def test_limits_below_zero_are_those_of_the_mirrored_case() -> None:
+    # The largest force of either sense that is no more than a tenth of the largest normal force: 0.3.
+    by = {PRESS: (1.5, 3.0), RUB: (-0.5, 0.5)}
+    bearable = {"max_pressure": (None, 1e12)}
+    right = fretting.design(rubbed(0.05), by=by, maximize=RUB, limits={RUB: (None, {PRESS: 0.1}), **bearable})
+    left = fretting.design(rubbed(-0.05), by=by, minimize=RUB, limits={RUB: ({PRESS: -0.1}, None), **bearable})
+    # A limit is met to 1e-5.
+    assert right.numbers == pytest.approx({PRESS: 3.0, RUB: 0.3}, rel=1e-5)
+    assert left.numbers == pytest.approx({PRESS: 3.0, RUB: -0.3}, rel=1e-5)
+    assert left.prices == pytest.approx(right.prices, rel=1e-3)
+    assert right.prices[RUB] == pytest.approx(1.0, rel=1e-3)
+
+
+@pytest.mark.parametrize("limit", [{RUB: ({PRESS: -0.05}, None)}, {RUB: ({PRESS: -0.05}, 0.4)}])
+def test_a_result_may_change_its_sign_on_the_way_to_a_limit(limit: Any) -> None:
+    # From a force to the right to the largest one to the left, 0.05 of the largest normal force.
+    found = fretting.design(
+        rubbed(0.2),
+        by={PRESS: (1.5, 3.0), RUB: (-0.5, 0.5)},
+        minimize=RUB,
+        limits={**limit, "max_pressure": (None, 1e12)},
+    )
+    assert found.numbers == pytest.approx({PRESS: 3.0, RUB: -0.15}, rel=1e-4)
+    assert found.prices[RUB] == pytest.approx(1.0, rel=1e-3)
+    places = [tuple(one.numbers.values()) for one in found.evaluations]
+    assert len(set(places)) == len(places), "nothing is run twice"
+
+
+def test_a_number_is_the_same_however_it_is_written() -> None:
+    rubbed_by = "load.rub.tangential_force.0"
+    found = fretting.design(
+        rubbed(0.05),
+        by={"load.0.normal_force": (1.5, 3.0), rubbed_by: (0.01, 0.5)},
+        maximize={RUB: 0.5, "load[-1].tangential_force[0]": 0.5},
+        limits={RUB: (None, {PRESS: 0.1}), "max_pressure": (None, 1e12)},
+    )
+    assert found.numbers == pytest.approx({"load.0.normal_force": 3.0, rubbed_by: 0.3}, rel=1e-5)
+    assert found.objective == found.numbers[rubbed_by]
+    assert set(found.prices) == {rubbed_by} and set(found.results) == {"max_pressure"}
+
+
 BOUNDS = {THICKNESS: (1e-6, 8e-6), MODULUS: (120e9, 400e9)}
 
 
@@ -150,8 +249,8 @@ def test_a_limit_moves_with_a_number_and_a_number_is_an_objective() -> None:
     pytest.importorskip("xarray")
     page = GUIDE.read_text(encoding="utf-8").partition("## A film that wears")[2].partition("## What can")[0]
     told: dict[str, Any] = {"fretting": fretting, "print": lambda *_: None}
-    snippets = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
-    exec("\n".join([*snippets[:2], snippets[2].partition("\nfor ")[0]]), told)
+    setup, thinnest, stiffest, sweep = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    exec("\n".join([setup.partition("\nfor ")[0], thinnest, stiffest, sweep.partition("\nfor ")[0]]), told)
     thin, stiff = told["thin"], told["stiff"]
     # The numbers of the page, to its digits; those of a vertex of two limits are as certain as these are met.
     assert thin.numbers == pytest.approx({THICKNESS: 1.92e-6}, rel=3e-3)
@@ -163,6 +262,23 @@ def test_a_limit_moves_with_a_number_and_a_number_is_an_objective() -> None:
     assert stiff.results["max_worn_depth"] == pytest.approx(0.1 * stiff.numbers[THICKNESS], rel=1e-4)
     assert list(stiff.prices.values()) == pytest.approx([1.23, 3.24], rel=0.01)
     assert set(stiff.history.cycles["stands_for"]) == {2000}
+    # The thick branch: the bond decides, and of the largest modulus any film from 9.6 um on will do.
+    assert told["thick"].numbers == pytest.approx({THICKNESS: 8.78e-6}, rel=3e-3)
+    assert list(told["thick"].prices.values()) == pytest.approx([2.57], rel=0.01)
+    assert told["stiffest"].numbers[MODULUS] == 400e9 and told["stiffest"].numbers[THICKNESS] > 9.5e-6
+    assert len(told["stiffest"].active) == 1
+    for start in (6e-6, 8e-6):
+        with pytest.raises(fretting.DesignError, match=r"interface_shear = .* above its limit"):
+            fretting.design(
+                told["with_film"](start), by={THICKNESS: (1e-6, 8e-6)}, minimize=THICKNESS, limits=told["lasting"]
+            )
+    branches = re.findall(r"\| (\d+) um \| (\d+) MPa \| ([\d.]+) % \|", page)
+    assert len(branches) == 8
+    for depth, shear, loss in branches:
+        # By plain runs, without derivatives; half of the last digit.
+        worn, sheared = told["worn_and_sheared"](float(depth) * 1e-6, 200e9)
+        assert sheared == pytest.approx(float(shear) * 1e6, abs=0.55e6)
+        assert worn == pytest.approx(float(loss) / 100, abs=0.00055)
     table = re.findall(r"\| ([\d.]+) um \|" + 3 * r"\D*(\d+) MPa\D*\|" + r"\D*([\d.]+) %", page)
     assert len(table) == 3
     for depth, *shears, loss in table:
@@ -234,7 +350,14 @@ def test_an_objective_of_nothing_is_refused() -> None:
         ({"by": {YOUNG: (100e9, 400e9)}}, "must lie within its bounds"),
         ({"by": {YOUNG: (400e9, 50e9)}}, "must be finite and rise"),
         ({"by": {YOUNG: 3.0}}, "expected a pair"),
-        ({"by": {}}, "at least one"),
+        ({"by": {}}, "by: expected at least one number"),
+        ({"minimize": YOUNG}, "at least one result in them"),
+        ({"minimize": "load[0].normal_force"}, r"load\[0\].normal_force: not a number of `by`, which has lower"),
+        ({"limits": {"lower.substrate.poisson": (0.1, None)}}, "lower.substrate.poisson: not a number of `by`"),
+        ({"limits": {"max_pressure": (None, {"profile.sphere.radius": 1e9})}}, "radius: not a number of `by`"),
+        ({"minimize": "increments[7].contact_area"}, "two runs"),
+        ({"by": {"load[0].normal_force": (1, 20), "load.0.normal_force": (1, 20)}}, "named twice"),
+        ({"by": {PRESS: (1, 20)}, "limits": {PRESS: (2, 9), "load.0.normal_force": (3, 9)}}, "named twice"),
         ({"by": {"solver.tolerance": (1e-10, 1e-8)}}, "paths are those of the case"),
         ({"limits": {"max_pressure": (None, None)}}, "least and the largest"),
         ({"limits": {"max_pressure": (2.0, 1.0)}}, "least and the largest"),
