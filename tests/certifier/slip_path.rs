@@ -172,7 +172,7 @@ impl Past {
                         (rates - 1.0).clamp(0.0, 1.0)
                     }
                 };
-                let stop = 0.27 * fall;
+                let stop = fall / 6.0;
                 let known = f64::min(1.0, length / (0.01 * self.largest_slip));
                 let c = 1.0 - (1.0 + ratio) / (1.0 + 2.0 * ratio) / (1.0 - stop);
                 CellPath {

@@ -1,8 +1,9 @@
 //! Errors of random histories with 12, 24 and 48 increments in a cycle, by both rules, against references of many increments, which are kept
 //! in FOLDER: `cargo run --release -p fret-validation --example histories -- FIRST COUNT FOLDER`.
 //!
-//! It prints the medians of the errors over those of end points, the numbers that are twice as far as by end points, those that grow with the
-//! increments, and the operator applications. `HISTORIES_LIST=1` lists them all. `HISTORIES_AUTO=0.03` asks instead how far the increments that
+//! It prints the medians of the errors over those of end points, the numbers that are twice as far as by end points (and how many of them are
+//! twice as far as what end points have in the other two counts, too, in proportion: an error of end points that changes its sign is small once),
+//! those that grow with the increments, and the operator applications. `HISTORIES_LIST=1` lists them all. `HISTORIES_AUTO=0.03` asks instead how far the increments that
 //! the program chooses to this tolerance are from the reference.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "its output is the table")]
@@ -68,6 +69,12 @@ fn row(seed: u64, folder: &Path) -> Result<Row, String> {
         row.ends.push(End::of(&ends).off(&right).map(f64::abs));
     }
     Ok(row)
+}
+
+/// The largest error of end points in all counts, each in proportion to its increments.
+fn likely(row: &Row, at: usize, quantity: usize) -> f64 {
+    let error = |other: usize| row.ends[other][quantity] * COUNTS[other] as f64 / COUNTS[at] as f64;
+    (0..COUNTS.len()).map(error).fold(0.0, f64::max)
 }
 
 /// How far a history is from its reference with increments that the program chooses, and what it took.
@@ -156,7 +163,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             median(solved.iter().filter(|row| row.ends[at][quantity] > 1e-12).map(ratio).collect())
         });
         let medians: Vec<String> = medians.map(|median| format!("{median:.2}")).collect();
-        let (mut twice, mut grown) = (Vec::new(), Vec::new());
+        let (mut twice, mut of_all_counts, mut grown) = (Vec::new(), 0, Vec::new());
         for row in &solved {
             for at in 0..COUNTS.len() {
                 let (error, ends) = (row.second[at][quantity], row.ends[at][quantity]);
@@ -164,6 +171,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                     format!("{}: {name} at {} {error:.1e}, by end points {ends:.1e}", row.name, COUNTS[at]);
                 if error > SMALL && error > 2.0 * ends {
                     twice.push(told.clone());
+                    of_all_counts += usize::from(error > 2.0 * likely(row, at, quantity));
                 }
                 if at > 0 && error > SMALL && error > 1.2 * row.second[at - 1][quantity] {
                     grown.push(format!("{told}, at {} {:.1e}", COUNTS[at - 1], row.second[at - 1][quantity]));
@@ -171,7 +179,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
         }
         println!(
-            "{name}: medians over end points {}; twice {}, grown {}",
+            "{name}: medians over end points {}; twice {} ({of_all_counts} in all counts), grown {}",
             medians.join(", "),
             twice.len(),
             grown.len()
