@@ -65,7 +65,7 @@ pub(super) struct Increment<'a> {
     pub(super) displacements: &'a [Array2<f64>; 3],
     /// What went before, and the length of this increment over the last and the same of the normal load, where slip is integrated to second
     /// order.
-    pub(super) past: Option<(&'a Past, (f64, Option<f64>))>,
+    pub(super) past: Option<(&'a Past, (f64, Option<f64>, bool))>,
     /// What went before is known.
     pub(super) is_known: bool,
     /// Strain of the lower surface less that of the upper one.

@@ -181,7 +181,7 @@ impl<'a> Certifier<'a> {
             load,
             fields: Fields { p, q, slip, gap, zone },
             displacements: &displacements,
-            past: ratio.map(|ratio| (&self.past, (ratio, edge_ratio))),
+            past: ratio.map(|ratio| (&self.past, (ratio, edge_ratio, self.past.grows(&load)))),
             is_known: self.whole >= 2 || case.integration == Integration::EndPoint,
             strain,
         };

@@ -137,8 +137,17 @@ impl Past {
         (old * new > 0.0).then(|| f64::min(new / old, 3.0))
     }
 
-    /// The rule of a cell in an increment `ratio` times as long as the last, in which the normal load changes by `edge_ratio` times as much.
-    pub(super) fn path(&self, at: [usize; 2], (ratio, edge_ratio): (f64, Option<f64>)) -> CellPath {
+    /// Whether the normal load grows in an increment.
+    pub(super) fn grows(&self, load: &LoadStep) -> bool {
+        self.loads.last().is_some_and(|last| load.normal.value() > last.normal.value())
+    }
+
+    /// The rule of a cell in an increment `ratio` times as long as the last, in which the normal load changes by `edge_ratio` times as much, and `grows`.
+    pub(super) fn path(
+        &self,
+        at: [usize; 2],
+        (ratio, edge_ratio, grows): (f64, Option<f64>, bool),
+    ) -> CellPath {
         let (Some(drift), Some(zone)) = (&self.drift[0], &self.zone) else { return CellPath::STRAIGHT };
         let last = [drift[0][at], drift[1][at]];
         match zone[at] {
@@ -172,7 +181,7 @@ impl Past {
                         (rates - 1.0).clamp(0.0, 1.0)
                     }
                 };
-                let stop = fall / 6.0;
+                let stop = fall * if grows { 1.0 / 6.0 } else { 0.27 };
                 let known = f64::min(1.0, length / (0.01 * self.largest_slip));
                 let c = 1.0 - (1.0 + ratio) / (1.0 + 2.0 * ratio) / (1.0 - stop);
                 CellPath {

@@ -95,7 +95,8 @@ fn pace(scene: &Scene<'_>, load: &Load, before: &Solved, end_point: bool) -> Opt
         let by = slopes.map_or([0.0; BOTH], |slopes| slopes.by);
         [0, FREEDOMS].map(|first| std::array::from_fn(|freedom| by[first + freedom]))
     };
-    let value = Pace { loads: found.loads.value, edge: found.edge.map(|edge| edge.value) };
+    let value =
+        Pace { loads: found.loads.value, edge: found.edge.map(|edge| edge.value), grows: found.grows };
     Some((value, [by(Some(found.loads)), by(found.edge)]))
 }
 
@@ -177,7 +178,9 @@ impl Rule {
                         true if pressure > 0.0 => Then::Slid([then_x, then_y]),
                         _ => Then::Unknown,
                     };
-                    if let Some([turn, ahead]) = path_after_slip([x, y], then, (loads, ratio, largest)) {
+                    if let Some([turn, ahead]) =
+                        path_after_slip([x, y], then, (loads, ratio, largest), pace.grows)
+                    {
                         self.set(place, [turn, ahead].map(|pair| pair.map(Scalar::value)));
                         let [turn, ahead] = [turn, ahead].map(|pair| pair.map(|part| part.by));
                         let by = [turn[0], turn[1], ahead[0], ahead[1]];

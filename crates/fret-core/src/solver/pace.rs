@@ -11,6 +11,8 @@ pub struct Pace<R = f64> {
     pub loads: R,
     /// In the normal load, which moves the edge of contact; `None` where that turns.
     pub edge: Option<R>,
+    /// Whether the normal load grows in this increment.
+    pub grows: bool,
 }
 
 /// Length of a load increment to `load` over that of the one before it, 3 at the most, when it goes on in about the same direction: less than 60
@@ -24,7 +26,7 @@ pub fn pace_of<R: Scalar>([older, newer]: [[R; FREEDOMS]; 2], load: &LoadStep) -
         product if product > 0.0 => Some((now / then).min(R::of(3.0))),
         _ => (then.value() == 0.0 && now.value() == 0.0).then_some(loads),
     };
-    Some(Pace { loads, edge })
+    Some(Pace { loads, edge, grows: now.value() > 0.0 })
 }
 
 /// Whether the tangential controls along x and y are of one kind.

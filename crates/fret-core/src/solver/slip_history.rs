@@ -14,9 +14,11 @@ use crate::fields::{Scalar, TangentialField, in_portions, length_of};
 use crate::model::{ContactState, Zone};
 
 /// Slip that cells have still to go when they come to rest, over that of the last increment, summed over all moments of the increment at
-/// which they may: where the rate of slip falls evenly. Where it falls with the root of the time left, as beside a stick zone that grows,
-/// that is 0.27, which is more than random histories and loops after coarse pressing take. How it fades out, see [`fall`], is by trial.
-const STOP: f64 = 1.0 / 6.0;
+/// which they may: where the rate of slip falls with the root of the time left, as beside a stick zone that grows. How it fades out, see
+/// [`fall`], is by trial.
+const STOP: f64 = 0.27;
+/// The same where the normal load grows, and the rate of slip is taken to fall evenly: by trial, since there the edge grows with the stick zone.
+const STOP_IN_GROWING: f64 = 1.0 / 6.0;
 /// A cell that has just entered, of whose slip one rate is known, counts so much as one whose slip falls. By trial: more leaves less of the error
 /// of the stick radius in coarse pressing, and more of that of the loops after it.
 const ENTERED: f64 = 0.35;
@@ -101,8 +103,8 @@ pub fn slip_path(
 impl<R: Scalar + Send + Sync> Recent<'_, R> {
     /// The paths in the cells of the region, in an increment of a `pace`; `zones` are those of the whole grid.
     ///
-    /// *Stop.* Cells that slipped; see [`STOP`]. Nothing where slip does not fall, the whole of it where it falls to half, [`ENTERED`]
-    /// of it where a cell has just entered, and nothing where the moment of its touch was not known. *Start.* Cells that stuck; see [`BEGUN`].
+    /// *Stop.* Cells that slipped; see [`STOP`], [`STOP_IN_GROWING`]. Nothing where slip does not fall, the whole of it where it falls to half,
+    /// [`ENTERED`] of it where a cell has just entered, and nothing where the moment of its touch was not known. *Start.* Cells that stuck; see [`BEGUN`].
     /// *Entry.* Open cells; see [`Edge`].
     ///
     /// `was_inside`: where the drift of the last increment is known; `wide` finds it in the whole region, for cells where it is not.
@@ -130,7 +132,7 @@ impl<R: Scalar + Send + Sync> Recent<'_, R> {
                 _ => Then::Unknown,
             };
             if let Some([turn, ahead]) =
-                path_after_slip(at(drift, cell), then, (pace.loads, self.ratio, largest))
+                path_after_slip(at(drift, cell), then, (pace.loads, self.ratio, largest), pace.grows)
             {
                 set(&mut paths.turn, cell, turn);
                 set(&mut paths.ahead, cell, ahead);
@@ -206,11 +208,13 @@ pub enum Then<R> {
 }
 
 /// Vector t and offset a of a cell that slipped, `here` its last drift; `loads` and `ratio` are the lengths of the increment and of the last one,
-/// each over that of the one before it, and `largest` the largest slip of all cells. `None` where it did not move.
+/// each over that of the one before it, `largest` the largest slip of all cells, and `grows` tells of the normal load. `None` where it did not
+/// move.
 pub fn path_after_slip<R: Scalar>(
     here: [R; 2],
     then: Then<R>,
     (loads, ratio, largest): (R, R, R),
+    grows: bool,
 ) -> Option<[[R; 2]; 2]> {
     let fall = match then {
         Then::Entered => R::of(ENTERED),
@@ -218,7 +222,8 @@ pub fn path_after_slip<R: Scalar>(
         Then::Unknown => R::of(0.0),
     };
     let weight = (length_of(here) / (largest * KNOWN)).min(R::of(1.0));
-    path_that_goes_on(here, (loads, fall * STOP, weight))
+    let stop = if grows { STOP_IN_GROWING } else { STOP };
+    path_that_goes_on(here, (loads, fall * stop, weight))
 }
 
 /// Vector t of a cell that stuck under a shear; `largest` is the largest of all cells. `None` without shear.
@@ -251,7 +256,7 @@ fn fall<R: Scalar>(then: [R; 2], now: [R; 2], ratio: R) -> R {
 mod tests {
     use super::*;
 
-    /// Of slip whose rate falls evenly, or with the root of the time left, at all moments of an increment in the mean.
+    /// Of slip whose rate falls with the root of the time left, or evenly, at all moments of an increment in the mean.
     #[test]
     fn what_is_left_of_slip_that_stops() {
         let share = |power: f64| {
@@ -260,7 +265,7 @@ mod tests {
             let last: f64 = moments.map(|t: f64| (1.0 + t).powf(power) - t.powf(power)).sum();
             left / last
         };
-        assert!((share(2.0) - STOP).abs() < 1e-6 && (share(1.5) - 0.27).abs() < 5e-3);
+        assert!((share(1.5) - STOP).abs() < 5e-3 && (share(2.0) - STOP_IN_GROWING).abs() < 1e-6);
     }
 
     /// The direction turns evenly, from that of the shear at the start of the increment; slip begins at any moment of it and grows with the
