@@ -119,7 +119,7 @@ fn a_rough_surface_that_slides_is_at_each_place_what_it_is_there() {
 }
 
 /// Less than a hundredth of a cell is no motion: to the bit the answer of surfaces that stay, and the plan says so, with wear as without. A motion by just a
-/// hundredth shows what is left out: of the largest pressure not a thousandth, on ripples of 18 cells, and it is said no more.
+/// hundredth shows what is left out, and it is said no more: on ripples of 18 cells 0.01 x 2 pi / 18 = 0.35 % of the pressure that these make.
 #[test]
 fn less_than_a_hundredth_of_a_cell_is_no_motion() {
     const CELLS: usize = 40;
@@ -140,7 +140,8 @@ fn less_than_a_hundredth_of_a_cell_is_no_motion() {
     let most = small.pressure.iter().copied().fold(0.0, f64::max);
     let off = (&moved.pressure - &small.pressure).iter().fold(0.0_f64, |most, p| most.max(p.abs())) / most;
     println!("a hundredth of a cell: pressure off by {off:.1e} of the largest");
-    assert!(off > 1e-5 && off < 1e-3, "{off:e}");
+    // By half as much again, at the edge of contact.
+    assert!(off > 1e-5 && off < 1.5 * 0.01 * 2.0 * PI / 18.0, "{off:e}");
     let is_said = |wear: &str, shift: f64| {
         let text = format!(
             "[grid]\ncells = 96\nsize = 2.4\n[upper]\nrigid = true\n{wear}\n[lower]\nsubstrate = {{ young = 0.91, poisson = 0.3 }}\n\

@@ -75,7 +75,7 @@ impl Strides {
         let (longest, stage) = self.longest?;
         let stage = plan.case.stages.get(stage)?;
         let warning = Warning::of(concern, longest * (1.0 - ROUNDING), Some(stage.name.clone()))?;
-        let enough = (stage.increments_by_key() as f64 * longest / warning.bound).ceil();
+        let enough = (stage.increments_by_key() as f64 * warning.value / warning.bound).ceil();
         let help = if self.way == Some(Way::Rolls) && plan.case.kinematics.frame == Frame::Contact {
             format!("increments = {enough} in that stage; where these are no whole cells, more of them")
         } else {
