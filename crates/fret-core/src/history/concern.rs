@@ -41,7 +41,7 @@ pub const RING_SHEAR: f64 = 0.2;
 /// a half, the largest depth by 2, 3, 6, 16 % (trapezoids of Hertz' pressure); later, when the surfaces have worn in, by about half of it.
 pub const STRIDE: f64 = 1.0 / 6.0;
 /// Distance that it rolls in one increment, in the same way. Of a cylinder that rolls back and forth by six tenths of its contact under half the friction
-/// that it can have, the worn depth of a cell is off by 4 % of the largest at 0.075, by 7 % here and 17 % at a fifth, the energy of a cycle by 0.4, 1.4 and 6 %.
+/// that it can have, the wear depth of a cell is off by 4 % of the largest at 0.075, by 7 % here and 17 % at a fifth, the energy of a cycle by 0.4, 1.4 and 6 %.
 pub const ROLLED: f64 = 0.1;
 
 /// Change of the friction coefficient of a cell in a single cycle over the mean one. Within a cycle it is constant; a tenth more friction
@@ -268,7 +268,7 @@ pub const ROWS: [Row; 17] = [
         quantity: "distance that the contact rolls in an increment over its length along the way",
         bound: ROLLED,
         warns_below: false,
-        consequence: "slip and the work of friction are off",
+        consequence: "slip and dissipated energy are off",
         help: "more increments",
     },
 ];
