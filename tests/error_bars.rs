@@ -8,7 +8,8 @@ use fret_core::case::Case;
 use fret_core::plan::Plan;
 use fret_core::run::Silent;
 use fret_core::study::{
-    Bars, ClosedForm, Level, Quantity, Reference, Resolutions, companion, error_bars, errors, solved_level,
+    Bars, ClosedForm, Level, Quantity, Reference, Resolutions, companion, error_bars, errors, solved_ends,
+    solved_level,
 };
 use fret_validation::Sphere;
 use serde::Deserialize;
@@ -322,6 +323,51 @@ fn a_study_of_steady_rolling_judges_what_is_steady() {
     println!("creepage off Carter's on 32, 64, 128 cells: {off:.4?}");
     // A step of a cell an increment: at least of first order, so that four times the cells leave a quarter; less, as in the edge there is a cell.
     assert!(off[2] < 0.5 * off[0] && off[2] < 0.02, "{off:?}");
+}
+
+/// A steady state before the end is judged like one at the end: by Carter's creepage and friction. Shift and energy, which go on from the roll of a cell, are
+/// not.
+#[test]
+fn a_study_judges_a_steady_state_in_the_middle_of_a_history() {
+    let text = rolling_cylinders(128, 0.5) + "[[load]]\ntangential_force = [0.0, 0.0]\nincrements = 2\n";
+    let plan = planned(&text);
+    let resolutions = Resolutions::new(&plan, &[32, 64, 128], &[], &[]).unwrap();
+    let levels: Vec<Level> = resolutions
+        .places()
+        .into_iter()
+        .map(|place| solved_level(&resolutions.at(place).planned(&plan).unwrap(), &mut Silent).unwrap())
+        .collect();
+    let limit = Reference::limit(&resolutions, &|[cells, ..]| levels.get(cells)).unwrap();
+    let creepage = 0.3 / 100.0 * (1.0 - 0.5_f64.sqrt());
+    let friction = 0.15 * PI / 400.0 * creepage;
+    for (quantity, right) in [(Quantity::Creepage, creepage), (Quantity::RollingFriction, friction)] {
+        let [_, _, Some([found, _]), _] = limit.of(quantity)[..] else { panic!("{:?}", limit.of(quantity)) };
+        // the finest of these levels is off by up to 2 %, as above
+        assert!((found / right - 1.0).abs() < 0.02, "{}: {found:e} {right:e}", quantity.name());
+    }
+    for quantity in [Quantity::Shift, Quantity::DissipatedEnergy] {
+        assert!(limit.source(quantity).is_none(), "{}", quantity.name());
+    }
+}
+
+/// Half the cells leave one open beside a contact that has two: the coarse solution does not roll on, and the other stages keep their bars, which hold Hertz'
+/// approach of the press.
+#[test]
+fn stages_that_the_coarse_solution_reaches_keep_their_bars() {
+    let text = rolling_cylinders(46, 0.5).replace("size = 3.2", &format!("size = {:?}", 46.0 * 2.0 / 41.0));
+    let plan = planned(&text);
+    let fine = solved_level(&plan, &mut Silent).unwrap();
+    let coarse = solved_ends(&companion(&plan).unwrap(), &mut Silent);
+    let missed = coarse.missed.as_ref().map(ToString::to_string).unwrap_or_default();
+    assert!(missed.contains("twice the cells of an increment"), "{missed}");
+    assert_eq!((fine.ends.len(), coarse.ends.len()), (3, 2));
+    let bars = error_bars(&plan, &fine.ends, &coarse.ends);
+    assert_eq!(bars.iter().map(|bars| bars.stage).collect::<Vec<_>>(), [0, 1]);
+    for bars in &bars {
+        // Hertz: 2 P/(pi a) with a = 1
+        let pressure = bars.of(Quantity::MaxPressure).unwrap();
+        assert!((pressure.value[0] - 1.0 / 200.0).abs() <= pressure.bar.unwrap(), "{pressure:?}");
+    }
 }
 
 /// A rigid ball that rubs an elastic body, in partial or in gross slip: shift amplitude, cells, increments of pressing and of each cycle.

@@ -1,8 +1,10 @@
 //! Warnings: a case whose units went wrong is told of, before the run where the case alone tells and after it in any case; a case
 //! of the tutorials is not.
 
+use std::f64::consts::PI;
+
 use fret_core::case::Case;
-use fret_core::history::{Concern, Warning};
+use fret_core::history::{Concern, History, Warning};
 use fret_core::plan::Plan;
 use fret_core::run::plausibility::{Gauge, of_plan};
 use fret_validation::{Sphere, solved, solved_with};
@@ -217,4 +219,76 @@ fn a_bulk_stress_above_the_modulus_is_told_of() {
     };
     assert!((value(&before(&text("1.05e13")), Concern::BulkStrain) - 50.0).abs() < 1e-9);
     assert!(!names(&before(&text("1e9"))).contains(&Concern::BulkStrain));
+}
+
+/// A cylinder slides to and fro by half of its contact, which hardly wears: every cell loses `k` times the integral of Hertz' pressure over the way, a
+/// closed form. From the ends of 24, 12 and 8 increments (a twelfth, a sixth, a quarter of the contact) it is off by 2.5, 7.1 and 13 % of the largest (trapezoids
+/// of that pressure); the last is told of, and the number of increments that the warning names is enough.
+#[test]
+fn strides_that_show_in_the_scar_are_told_of() {
+    const HALF: f64 = 0.5;
+    let wears = "wear_coefficient = 1e-9";
+    let force = PI * HALF * HALF / 400.0; // E* = 1, R = 100
+    let text = |increments: usize, wears: &str| {
+        let young = "young = 1.82, poisson = 0.3";
+        let wear = if wears.is_empty() { "" } else { "[wear]\nlaw = \"archard\"\n" };
+        format!(
+            "[grid]\ncells = 96\nsize = 2.4\n[upper]\nsubstrate = {{ {young} }}\n[lower]\nsubstrate = {{ {young} }}\n{wears}\n\
+             [profile.cylinder]\nradius = 100.0\naxis = \"y\"\n[friction]\ncoefficient = 0.3\n[kinematics]\ndisplacement = \"finite\"\n{wear}\
+             [output]\nfields = [\"worn_depth\"]\n[[load]]\nnormal_force = {force:e}\nincrements = 2\n\
+             [[load]]\nname = \"rub\"\nshift = [{HALF}, 0.0]\ncycles = 1\nincrements = {increments}\n"
+        )
+        .replace("poisson = 0.3 }\nwear_coefficient = 1e-9", "poisson = 0.3, wear_coefficient = 1e-9 }")
+    };
+    // Hertz' pressure to the left of a place.
+    let carried = |x: f64| {
+        let u = (x / HALF).clamp(-1.0, 1.0);
+        force * (u * (1.0 - u * u).sqrt() + u.asin() + 0.5 * PI) / PI
+    };
+    let off = |history: &History| {
+        let [scar, _] = history.fields.last().unwrap().own_worn_depth.as_ref().unwrap();
+        let right = |x: f64| 2e-9 * (carried(x + HALF) - carried(x - HALF));
+        let cells = scar.iter().enumerate();
+        let off = cells.map(|(i, depth)| (depth - right(history.grid.centre(0, i))).abs());
+        off.fold(0.0, f64::max) / right(0.0)
+    };
+    let told = |history: &History| {
+        let concern = Concern::MovingInFewIncrements;
+        history.warnings.iter().find(|warning| warning.name == concern).cloned()
+    };
+    // What sticks after a turn, and cells of a twentieth of the half-width: 1 %.
+    for (increments, right) in [(24, 0.025), (8, 0.130)] {
+        let history = solved(&text(increments, wears));
+        println!("{increments} increments: off by {:.3}", off(&history));
+        assert!((off(&history) - right).abs() < 0.01, "{increments}: {}", off(&history));
+        assert_eq!(told(&history).is_some(), increments == 8, "{:?}", history.warnings);
+    }
+    let warning = told(&solved(&text(8, wears))).unwrap();
+    assert!((warning.value / 0.25 - 1.0).abs() < 0.03, "{warning:?}"); // a contact of whole cells
+    let enough: usize = warning.help.split(' ').find_map(|word| word.parse().ok()).unwrap();
+    let more = solved(&text(enough, wears));
+    assert!(enough <= 13 && told(&more).is_none() && off(&more) < 0.08, "{enough}: {:?}", more.warnings);
+    // Nothing wears: nothing remembers.
+    assert_eq!(told(&solved(&text(8, ""))), None);
+}
+
+/// A contact rolls by a fifth of itself in an increment, or by a twentieth.
+#[test]
+fn rolling_far_in_an_increment_is_told_of() {
+    let rolled = |increments: usize| {
+        let young = "young = 1.82, poisson = 0.3";
+        let text = format!(
+            "[grid]\ncells = 96\nsize = 2.4\n[upper]\nsubstrate = {{ {young} }}\n[lower]\nsubstrate = {{ {young} }}\n\
+             [profile.cylinder]\nradius = 100.0\naxis = \"y\"\n[friction]\ncoefficient = 0.3\n[[load]]\nnormal_force = {:e}\nincrements = 2\n\
+             [[load]]\nroll = 0.4\ncreepage = [1e-3, 0.0]\nincrements = {increments}\n",
+            PI * 0.25 / 400.0
+        );
+        solved(&text).warnings.into_iter().find(|warning| warning.name == Concern::RollingInFewIncrements)
+    };
+    let warning = rolled(2).unwrap();
+    assert!(
+        (warning.value / 0.2 - 1.0).abs() < 0.03 && warning.help.contains("increments = 4"),
+        "{warning:?}"
+    );
+    assert_eq!(rolled(8), None);
 }

@@ -3,7 +3,9 @@
 
 use std::f64::consts::PI;
 
+use fret_core::case::Case;
 use fret_core::history::History;
+use fret_core::plan::Plan;
 use fret_validation::{run, solved, solved_with};
 use ndarray::Array2;
 
@@ -113,6 +115,45 @@ fn a_rough_surface_that_slides_is_at_each_place_what_it_is_there() {
         println!("rough, moved by {step} half cells: pressure off by {off:.1e} of the largest");
         // Ripples of 18 cells between cells: (pi/18)^2/2 of their height at the most, which is a hundredth of the approach's.
         assert!(off < if step % 2 == 0 { 1e-7 } else { 0.02 }, "{step}: {off:e}");
+    }
+}
+
+/// Less than a hundredth of a cell is no motion: to the bit the answer of surfaces that stay, and the plan says so, with wear as without. A motion by just a
+/// hundredth shows what is left out, and it is said no more: on ripples of 18 cells 0.01 x 2 pi / 18 = 0.35 % of the pressure that these make.
+#[test]
+fn less_than_a_hundredth_of_a_cell_is_no_motion() {
+    const CELLS: usize = 40;
+    let heights = rippled_ball(CELLS);
+    let text = |kinematics: &str, cells: f64| {
+        let shift = cells * 0.05;
+        let loads = format!(
+            "[[load]]\nnormal_force = 3e-3\nincrements = 3\n[[load]]\nshift = [{shift:?}, 0.0]\nincrements = 2\n"
+        );
+        rough(CELLS, kinematics, &loads)
+    };
+    let of = |kinematics: &str, cells: f64| {
+        solved_with(&text(kinematics, cells), std::slice::from_ref(&heights)).state
+    };
+    let [still, small] = [FINITE, ""].map(|kinematics| of(kinematics, 0.0099));
+    assert_eq!((&still.pressure, &still.shear), (&small.pressure, &small.shear));
+    let [moved, small] = [FINITE, ""].map(|kinematics| of(kinematics, 0.0101));
+    let most = small.pressure.iter().copied().fold(0.0, f64::max);
+    let off = (&moved.pressure - &small.pressure).iter().fold(0.0_f64, |most, p| most.max(p.abs())) / most;
+    println!("a hundredth of a cell: pressure off by {off:.1e} of the largest");
+    // By half as much again, at the edge of contact.
+    assert!(off > 1e-5 && off < 1.5 * 0.01 * 2.0 * PI / 18.0, "{off:e}");
+    let is_said = |wear: &str, shift: f64| {
+        let text = format!(
+            "[grid]\ncells = 96\nsize = 2.4\n[upper]\nrigid = true\n{wear}\n[lower]\nsubstrate = {{ young = 0.91, poisson = 0.3 }}\n\
+             [profile.cylinder]\nradius = 100.0\naxis = \"y\"\n[friction]\ncoefficient = 0.3\n{FINITE}{}\
+             [[load]]\nnormal_force = 1e-3\nincrements = 1\n[[load]]\nshift = [{shift:?}, 0.0]\nincrements = 1\n",
+            if wear.is_empty() { "" } else { "[wear]\n" }
+        );
+        let plan = Plan::new(Case::from_toml(&text, "case.toml").unwrap()).unwrap();
+        plan.left_out.iter().any(|item| item.what == "motion of the surfaces")
+    };
+    for wear in ["", "wear_coefficient = 1e-6"] {
+        assert!(is_said(wear, 0.0099 * 0.025) && !is_said(wear, 0.0101 * 0.025), "{wear}");
     }
 }
 

@@ -51,7 +51,11 @@ FILES = [
         "fields of the kept increments (Zarr 3): one array per field, dimensions increment, y, x; coordinates increment, x, y",
     ),
     ("run.json", "the run: program, version, plan, totals, status, warnings, origin"),
-    ("error_bars.json", "with `--estimate-error`: value and bar of each quantity at the end of each stage"),
+    (
+        "error_bars.json",
+        "with `--estimate-error`: value and bar of each quantity at the end of each stage (`stages`); stages that have"
+        " none, and why (`without`)",
+    ),
     (
         "states/",
         "what a run that starts from a state needs besides the kept fields; `memory`: what the second order remembers at the end of the run",

@@ -7,14 +7,14 @@ use std::fmt::Write;
 use fret_core::model::Dimension;
 use fret_core::plan::{Coupling, Plan};
 use fret_core::run::Observer;
-use fret_core::study::{Bar, Bars, Quantity, StageQuantities, error_bars, resolved, solved_level};
+use fret_core::study::{Bar, Bars, Quantity, StageQuantities, error_bars, resolved, solved_ends};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
 use crate::defect;
 use crate::failure::Failure;
 use crate::figures::{counted, duration, figure, shortened, side_by_side};
-use crate::study::words::name;
+use crate::study::words::{first_after_steady, name, of_the_way};
 
 /// Stages that stand side by side in the table.
 const MOST_COLUMNS: usize = 3;
@@ -41,8 +41,10 @@ pub struct Estimate {
     increments: usize,
     /// Its time [s].
     wall_s: f64,
-    /// Stages at whose end the cells do not show the contact well enough, and why.
-    unresolved: Vec<(usize, String)>,
+    /// Stages without bars, and why: the cells do not show the contact well enough, or the coarse solution does not come so far.
+    without: Vec<(usize, String)>,
+    /// The first stage after one that rolls on to a steady state.
+    after_steady: Option<usize>,
     /// Whether there is friction to speak of.
     rubs: bool,
 }
@@ -107,27 +109,37 @@ impl Estimate {
         stage_quantities: &[StageQuantities],
         observer: &mut dyn Observer,
     ) -> Result<Self, NoBars> {
-        let because = |why: String| NoBars::Because(format!("the auxiliary coarse solution: {why}"));
-        let level = match defect::caught(|| Ok(solved_level(companion, observer)?)) {
-            Ok(level) => level,
-            Err(Failure::Interrupted(_)) => return Err(NoBars::Interrupted),
-            Err(Failure::Defect(words)) => return Err(because(words)),
+        let of_coarse = |why: String| format!("the auxiliary coarse solution: {why}");
+        let because = |why: String| NoBars::Because(of_coarse(why));
+        let coarse = match defect::caught(|| Ok::<_, Failure>(solved_ends(companion, observer))) {
+            Ok(coarse) => coarse,
             Err(failure) => return Err(because(failure.message())),
         };
-        let unresolved: Vec<(usize, String)> = stage_quantities
-            .iter()
-            .filter_map(|end| resolved(end).err().map(|error| (end.stage, error.to_string())))
-            .collect();
-        let bars = error_bars(plan, stage_quantities, &level.ends);
-        if let (true, Some((_, why))) = (bars.is_empty(), unresolved.first()) {
+        let missed = match coarse.missed.map(Failure::from) {
+            Some(Failure::Interrupted(_)) => return Err(NoBars::Interrupted),
+            missed => missed.map(|failure| failure.message()),
+        };
+        if let (true, Some(why)) = (coarse.ends.is_empty(), &missed) {
+            return Err(because(why.clone()));
+        }
+        let why_not = |end: &StageQuantities| {
+            let is_missed = coarse.ends.iter().all(|other| other.stage != end.stage);
+            let missed = || missed.clone().filter(|_| is_missed).map(of_coarse);
+            resolved(end).err().map(|error| error.to_string()).or_else(missed)
+        };
+        let without: Vec<(usize, String)> =
+            stage_quantities.iter().filter_map(|end| Some((end.stage, why_not(end)?))).collect();
+        let bars = error_bars(plan, stage_quantities, &coarse.ends);
+        if let (true, Some((_, why))) = (bars.is_empty(), without.first()) {
             return Err(NoBars::Because(why.clone()));
         }
         Ok(Self {
             bars,
-            unresolved,
-            cells: level.variation.cells,
+            without,
+            after_steady: first_after_steady(plan),
+            cells: companion.case.cells,
             increments: companion.increments,
-            wall_s: level.wall_s,
+            wall_s: coarse.wall_s,
             rubs: plan.coupling != Coupling::Frictionless,
         })
     }
@@ -151,7 +163,8 @@ impl Estimate {
             cells: record.auxiliary.cells,
             increments: record.auxiliary.increments,
             wall_s: record.auxiliary.wall_s,
-            unresolved: Vec::new(),
+            without: Vec::new(),
+            after_steady: None,
             rubs,
         }
     }
@@ -209,8 +222,11 @@ impl Estimate {
             side_by_side(&mut table, &name, COLUMN, told);
         }
         let _ = write!(table, "{}, {}", self.source(), duration(self.wall_s));
-        for (stage, why) in &self.unresolved {
+        for (stage, why) in &self.without {
             let _ = write!(table, "\nno error bars at the end of {}: {why}", stage_name(*stage));
+        }
+        if let Some(stage) = self.after_steady {
+            let _ = write!(table, "\n{}", of_the_way(&stage_name(stage)));
         }
         table
     }
@@ -228,6 +244,7 @@ impl Estimate {
         json!({
             "auxiliary": { "cells": self.cells, "increments": self.increments, "wall_s": self.wall_s },
             "stages": self.bars.iter().map(stage).collect::<Vec<_>>(),
+            "without": self.without.iter().map(|(stage, why)| json!({ "stage": stage, "name": stage_name(*stage), "why": why })).collect::<Vec<_>>(),
         })
     }
 }

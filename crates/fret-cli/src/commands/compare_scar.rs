@@ -136,6 +136,7 @@ impl BesideMeasured<'_> {
             "slope_taken_off": found.taken_off[0],
             "offset_taken_off": found.taken_off[1],
             "root_mean_square_beside_the_scar": found.beside,
+            "means_over": found.means_over,
             "unfinished": self.run.unfinished(),
             "notes": found.notes,
         })

@@ -134,6 +134,9 @@ pub fn studied(
     let said = [words::measured_by, words::without_order].map(|of| of(&reference, &shown, dimension));
     let measured =
         if known.is_empty() { words::NO_ERRORS.to_owned() } else { said.join("\n").trim_end().to_owned() };
+    let of_the_way =
+        words::first_after_steady(plan).map(|stage| words::of_the_way(&plan.case.stages[stage].name));
+    let measured = of_the_way.map_or(measured.clone(), |words| format!("{measured}\n{words}"));
     Ok(Studied { record, study, lines, measured })
 }
 

@@ -1,6 +1,7 @@
 //! What a study says in words: what it was compared with, and what to choose.
 
 use fret_core::model::Dimension;
+use fret_core::plan::Plan;
 use fret_core::study::{Advice, Convergence, Quantity, Reference, Source};
 
 /// Why a study shows no errors.
@@ -24,6 +25,21 @@ pub fn name(quantity: Quantity, dimension: Dimension) -> &'static str {
         (Quantity::MaxWornDepth, _) => "max worn depth",
         (Quantity::WornVolume, _) => "worn volume",
     }
+}
+
+/// The first stage after one that rolls on to a steady state, where it does not do so itself.
+pub fn first_after_steady(plan: &Plan) -> Option<usize> {
+    let stages = &plan.case.stages;
+    let steady = stages.iter().position(|stage| stage.steady)?;
+    (steady..stages.len()).find(|stage| !stages[*stage].steady)
+}
+
+/// What has no numbers from a stage on that follows a steady state.
+pub fn of_the_way(stage: &str) -> String {
+    format!(
+        "shift and dissipated energy from {stage:?} on are not compared: they go on from a steady state, which counts by the roll of one cell; \
+         make that the last stage where they matter"
+    )
 }
 
 /// What the quantities are compared with, one sentence per source; those whose errors are shown.

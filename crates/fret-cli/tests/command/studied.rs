@@ -158,6 +158,32 @@ fn error_bars_come_with_the_summary() {
     assert!(!bench.folder.join("results/case/error_bars.json").exists());
 }
 
+/// Half the cells leave one open beside a contact that rolls on: that stage has no bars, which is said, and the others keep theirs.
+#[test]
+fn stages_without_error_bars_are_told_of_and_the_others_keep_theirs() {
+    let bench = Bench::new("error-bars-of-some");
+    let body = "substrate = { young = 1.82, poisson = 0.3 }";
+    let case = format!(
+        "[grid]\ncells = 46\nsize = 2.2439\ndatum = 20.0\n[upper]\n{body}\n[lower]\n{body}\n[profile.cylinder]\nradius = 100.0\naxis = \"y\"\n\
+         [friction]\ncoefficient = 0.3\n[[load]]\nname = \"press\"\nnormal_force = 7.854e-3\nincrements = 4\n\
+         [[load]]\nname = \"roll on\"\nroll = \"steady\"\ncreepage = [1e-3, 0.0]\nincrements = 1\n\
+         [[load]]\nname = \"rest\"\ntangential_force = [0.0, 0.0]\nincrements = 2\n"
+    );
+    let answer = bench.file("case.toml", &case).fret(&["run", "case.toml", "--estimate-error"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    for words in [
+        "no error bars at the end of roll on: the auxiliary coarse solution: ",
+        "no error bars at the end of rest: the auxiliary coarse solution: ",
+        "shift and dissipated energy from \"rest\" on are not compared",
+    ] {
+        assert!(answer.out.contains(words), "{words}: {}", answer.out);
+    }
+    let file: Value = serde_json::from_str(&bench.text("results/case/error_bars.json")).unwrap();
+    assert_eq!(file["stages"].as_array().map(Vec::len), Some(1));
+    assert!(file["stages"][0]["max_pressure"]["error_bar"].as_f64().unwrap() > 0.0);
+    assert_eq!(file["without"][0]["name"], "roll on");
+}
+
 #[test]
 fn error_bars_of_a_fretting_loop_and_where_there_are_none() {
     let bench = Bench::new("error-bars-loop");

@@ -62,13 +62,15 @@ pub(super) struct Cells {
 pub(super) struct Layout {
     /// The axis along which rows follow one another.
     pub rows: Axis,
-    /// Length of one unit of the numbers, in which the coordinates of points may be.
+    /// Length of one unit of the numbers.
     pub unit: f64,
+    /// Length of one unit of the coordinates of points, if they are not in that of the case.
+    pub unit_of_places: f64,
 }
 
 impl Layout {
     /// Index `[i, j] = [x, y]`.
-    pub const XY: Self = Self { rows: Axis::X, unit: 1.0 };
+    pub const XY: Self = Self { rows: Axis::X, unit: 1.0, unit_of_places: 1.0 };
 }
 
 /// A number for every cell, index `[i, j] = [x, y]`, from a matrix, a list of points, or in a line contact a row, a column or pairs;
@@ -84,7 +86,7 @@ pub(super) fn fitting(
     let turned = |array: Array2<f64>| array.reversed_axes().as_standard_layout().into_owned();
     let is_list = points::is_list(&array, count);
     if is_list && (count[1] == 1 || array.nrows() >= count[0].max(count[1])) {
-        return listed(judge, (count, size), (place, span), &array, layout.unit);
+        return listed(judge, (count, size), (place, span), &array, layout.unit_of_places);
     }
     let (array, other) = match layout.rows {
         Axis::X => (array.as_standard_layout().into_owned(), "y"),

@@ -9,7 +9,7 @@ use crate::document::Mistake;
 use crate::kernel::uniform_response;
 use crate::model::stage::Stage;
 use crate::model::{
-    Beyond, CellMap, Conduction, ContactPair, CoulombFriction, Dimension, FrictionEvolution, Heights,
+    Beyond, CellMap, Conduction, ContactPair, CoulombFriction, Dimension, Frame, FrictionEvolution, Heights,
     HeightsSummary, Integration, Kinematics, LoadStep, MapSummary, Periodicity, Profile, ResidualStress, Rig,
     Scheme, WearRule,
 };
@@ -198,6 +198,8 @@ impl Case {
             "write grid.size = [x, y], larger than what \"auto\" found, which fret plan shows"
         } else if has_map {
             "enlarge grid.size, with a friction map for it"
+        } else if self.rolls() && self.kinematics.frame == Frame::Contact {
+            "it goes along with the contact, and holds twice the cells of an increment open on either side: enlarge grid.size, or roll by fewer cells in an increment"
         } else {
             "enlarge grid.size, or write size = \"auto\"; grid.beyond = \"no body\" where a body ends there"
         }

@@ -76,7 +76,7 @@ pub(super) fn kinematics(judge: &mut Judge, concerned: &Concerned<'_>) -> Kinema
         (
             evolution.filter(|_| kinematics.friction_of_upper).map(At::span),
             "friction.evolution with friction.moves_with = \"upper\": slip is collected in the frame of the lower body".to_owned(),
-            "moves_with = \"lower\"",
+            "moves_with = \"lower\", where the places of the lower body change their friction; or a friction map that does not evolve",
         ),
         (
             file.thermal.as_ref().map(At::span),
@@ -116,5 +116,8 @@ mod tests {
         let map = ("coefficient = 0.3\n", "coefficient = 0.3\nmoves_with = \"upper\"\n");
         refused(BALL, &[map], "stay where they are", "\"upper\"");
         assert!(read(BALL, &[MOVES, map]).kinematics.friction_of_upper);
+        let evolution = "{ by = \"energy\", last = 0.6, scale = 1e-4 }";
+        let both = format!("coefficient = 0.3\nmoves_with = \"upper\"\nevolution = {evolution}\n");
+        refused(BALL, &[MOVES, ("coefficient = 0.3\n", &both)], "slip is collected in the frame", evolution);
     }
 }

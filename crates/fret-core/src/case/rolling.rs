@@ -173,7 +173,12 @@ fn in_the_frame_of_the_contact(
             );
         }
     }
-    let help = "frame = \"bodies\", on a grid that holds all of the way";
+    // The bodies' frame has no steady state.
+    let help = if files.iter().any(|file| file.value.controls.are_steady()) {
+        "roll = a distance in place of \"steady\", and frame = \"bodies\" on a grid that holds all of the way; or leave it out"
+    } else {
+        "frame = \"bodies\", on a grid that holds all of the way"
+    };
     let mut refuse = |span: Option<Range<usize>>, what: &str| {
         if let Some(span) = span {
             let why = "with kinematics.frame = \"contact\": it would travel through the grid, and out of it";
@@ -279,6 +284,32 @@ mod tests {
         refused(BALL, &[("increments = 1", ball)], "its spin is prescribed", "0.0");
         let tilted = with("roll = 1.0\ntilt = 1e-3");
         refused(ROLLER, &[("increments = 1\n", &tilted)], "middle of the grid", "1e-3");
+    }
+
+    /// What travels through the grid is sent to the frame of the bodies; a steady state, which has none there, to a distance.
+    #[test]
+    fn the_way_out_of_a_refusal_is_one() {
+        let contact = ("[friction]", "[kinematics]\nframe = \"contact\"\n[friction]");
+        let wear = "[wear]\ncoefficient = 1e-9\n";
+        let message = |edits: &[(&str, &str)]| {
+            let text = edits.iter().fold(ROLLER.to_owned(), |text, (from, to)| text.replacen(from, to, 1));
+            Case::from_toml(&text, "case.toml").map(|_| ()).map_err(|error| error.to_string())
+        };
+        for roll in ["roll = 0.5", "roll = 0.5\ncycles = 3"] {
+            let rolled = with(roll) + wear;
+            let error = message(&[contact, ("increments = 1\n", &rolled)]).unwrap_err();
+            assert!(
+                error.contains("frame = \"bodies\", on a grid") && !error.contains("in place of"),
+                "{error}"
+            );
+            message(&[("increments = 1\n", &rolled)]).unwrap();
+        }
+        let steady = with("roll = \"steady\"") + wear;
+        let error = message(&[("increments = 1\n", &steady)]).unwrap_err();
+        assert!(
+            error.contains("roll = a distance in place of \"steady\"") && error.contains("[wear]"),
+            "{error}"
+        );
     }
 
     /// The columns of a table prescribe what keys do.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::arrays::{self, Cells, Layout};
+use super::arrays::{self, Cells};
 use super::file::CaseFile;
 use super::formula::formula;
 use super::judge::Judge;
@@ -220,21 +220,21 @@ impl Part<'_, '_> {
         let sign = if of_gap.is_some() { -1.0 } else { 1.0 };
         let detrend = given.detrend.unwrap_or(Detrend::None);
         let question = Question { place: &place, span: at.clone(), keys, cells: self.cells? };
-        let (mut array, unit) = match content {
+        let (array, layout) = match content {
             Content::Numbers(array, head) => {
-                let unit = question.unit(self.judge, given.unit, &head)?;
+                let (array, layout) = question.with_unit(self.judge, array, (rows, given.unit, &head))?;
                 if keys.is_asked() {
-                    let measured = question.of_array(self.judge, (array, &head), Layout { rows, unit })?;
+                    let measured = question.of_array(self.judge, (array, &head), layout)?;
                     return self.treated(&question, measured, (source, sign, detrend));
                 }
-                (array, unit)
+                (array, layout)
             }
             Content::Scan(scan) => {
                 let measured = question.of_scan(self.judge, scan, given.unit, given.rows.is_some())?;
                 return self.treated(&question, measured, (source, sign, detrend));
             }
         };
-        array = arrays::fitting(self.judge, self.cells, (&place, at.clone()), array, Layout { rows, unit })?;
+        let mut array = arrays::fitting(self.judge, self.cells, (&place, at.clone()), array, layout)?;
         if let Some((cell, mark, [low, high])) = hole(&array) {
             return self.judge.refuse(
                 at,
@@ -244,7 +244,7 @@ impl Part<'_, '_> {
                 topography::FILL,
             );
         }
-        array.mapv_inplace(|height| sign * unit * height);
+        array.mapv_inplace(|height| sign * layout.unit * height);
         match Heights::new(source, array, detrend) {
             Ok(heights) => Some(heights),
             Err(error) => self.judge.refuse(at, format!("{place}: {error}"), topography::FILL),

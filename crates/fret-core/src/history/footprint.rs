@@ -15,6 +15,9 @@ pub struct Footprint {
     pub radius: Option<f64>,
     /// Open cells between the contact and the nearest edge of the grid, which a contact that repeats along one axis has across that axis alone.
     pub free: usize,
+    /// Mean length along x and along y in cells, of all patches together; `None` without contact, and where it has no end.
+    #[serde(default)]
+    pub lengths: [Option<f64>; 2],
 }
 
 impl Footprint {
@@ -36,7 +39,8 @@ impl Footprint {
         let axes = (0..2).filter(|axis| Some(*axis) != endless);
         if cells == 0 {
             let cells = symmetry.whole_of([nx, ny]);
-            return Self { radius: None, free: axes.map(|axis| cells[axis]).min().unwrap_or(0) };
+            let free = axes.map(|axis| cells[axis]).min().unwrap_or(0);
+            return Self { radius: None, free, lengths: [None; 2] };
         }
         // The first cells of a mirrored axis lie at its mirror.
         let before = |axis: usize| if mirrored[axis] { usize::MAX } else { least[axis] };
@@ -49,7 +53,8 @@ impl Footprint {
         // A strip that has no ends is no disc of as many cells, however few of them the grid shows along it.
         let is_endless = by_chords.iter().any(|chord| chord.is_infinite());
         let circle = if is_endless { f64::INFINITY } else { (cells as f64 / std::f64::consts::PI).sqrt() };
-        Self { radius: narrow.is_finite().then_some(circle.min(1.1 * narrow)), free }
+        let lengths = faces.map(|faces| (faces > 0).then(|| 2.0 * cells as f64 / faces as f64));
+        Self { radius: narrow.is_finite().then_some(circle.min(1.1 * narrow)), free, lengths }
     }
 }
 

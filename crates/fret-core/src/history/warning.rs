@@ -86,7 +86,7 @@ mod tests {
     use crate::history::concern::ROWS;
 
     /// Each with its bound, as the pages name them, and whether small numbers are what is warned of.
-    const CONCERNS: [(Concern, f64, bool); 15] = [
+    const CONCERNS: [(Concern, f64, bool); 17] = [
         (Concern::FewCells, 6.0, true),
         (Concern::StifferThanDiamond, 1.0, false),
         (Concern::ContactRadiusOverBodyRadius, 0.2, false),
@@ -102,6 +102,8 @@ mod tests {
         (Concern::PressingInFewIncrements, 1.0, false),
         (Concern::FewCellsPerWave, 6.0, true),
         (Concern::BulkStrain, 0.2, false),
+        (Concern::MovingInFewIncrements, 1.0 / 6.0, false),
+        (Concern::RollingInFewIncrements, 0.1, false),
     ];
 
     #[test]
@@ -132,7 +134,7 @@ mod tests {
         assert!(ROWS.iter().all(|row| row.concern.row() == row));
         let words: std::collections::HashSet<_> =
             CONCERNS.iter().flat_map(|(name, ..)| [name.row().quantity, name.row().consequence]).collect();
-        assert_eq!(words.len(), 30, "every concern has its own words");
+        assert_eq!(words.len(), 34, "every concern has its own words");
         assert!(CONCERNS.iter().all(|(name, ..)| !name.row().help.is_empty()));
     }
 

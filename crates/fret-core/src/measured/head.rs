@@ -1,6 +1,6 @@
 //! The head of a measured table: which line names the columns, which column holds what, and in which units.
 
-use crate::numbers::{is_comment, number};
+use crate::numbers::{DELIMITERS, cells, delimiter, is_comment, number};
 use crate::units::{Heading, is_unit};
 
 use super::asked::Asked;
@@ -9,8 +9,6 @@ use super::role::{Role, listed, needed};
 
 /// Lines above the first numbers, at the most.
 const MOST_ABOVE: usize = 200;
-/// What may part columns, the surest first; the last stands for any white space.
-const DELIMITERS: [char; 4] = [';', '\t', ',', ' '];
 
 /// Units of other columns: known so that a line of units is not taken for names.
 const OTHERS: [&str; 17] =
@@ -59,25 +57,6 @@ impl Head {
             }
         }
         any.then(|| cells.iter().map(|cell| cell.trim_matches(['[', ']', '(', ')']).to_owned()).collect())
-    }
-}
-
-/// The cells of a line; a remark sign before them is skipped.
-pub fn cells(line: &str, delimiter: char) -> Vec<String> {
-    let line = line.trim_start().trim_start_matches(['#', '%', '!', '/']);
-    let plain = |cell: &str| cell.trim().trim_matches('"').trim().to_owned();
-    if delimiter == ' ' {
-        // A unit in brackets belongs to the word before it.
-        line.split_whitespace().map(plain).fold(Vec::new(), |mut words: Vec<String>, word| {
-            let opens = |word: &str| word.starts_with(['[', '(']);
-            match words.last_mut() {
-                Some(last) if opens(&word) && !opens(last) => *last += &format!(" {word}"),
-                _ => words.push(word),
-            }
-            words
-        })
-    } else {
-        line.split(delimiter).map(plain).collect()
     }
 }
 
@@ -169,7 +148,7 @@ fn by_names(lines: &[&str], roles: &[Role], wanted: &[Option<String>]) -> Option
     let needed = needed(roles);
     let is_named = |role: usize| wanted[role].as_deref().is_none_or(|word| place_of_number(word).is_none());
     for (row, line) in lines.iter().enumerate() {
-        let delimiter = DELIMITERS.into_iter().find(|mark| line.contains(*mark)).unwrap_or(',');
+        let delimiter = delimiter(line);
         let names = cells(line, delimiter);
         // A line of nothing but numbers is none of names, whatever numbers of columns stand in it.
         if names.iter().all(|name| name.is_empty() || number(name, delimiter != ',').is_ok()) {
@@ -180,11 +159,10 @@ fn by_names(lines: &[&str], roles: &[Role], wanted: &[Option<String>]) -> Option
                 .iter()
                 .position(|name| name == column || name_and_unit(name).0 == *column)
                 .or_else(|| place_of_number(column).filter(|place| *place < names.len())),
-            // By the order of the names that are known, the surest first.
+            // By the order of the names that are known, the surest first; behind an underscore stands part of a name, or a unit.
             None => roles[role].known.iter().find_map(|known| {
-                names
-                    .iter()
-                    .position(|name| name_and_unit(name).0.to_lowercase().replace([' ', '-'], "_") == *known)
+                let whole = names.iter().position(|name| normal(name) == *known);
+                whole.or_else(|| names.iter().position(|name| normal(&name_and_unit(name).0) == *known))
             }),
         };
         let places: Vec<Option<usize>> = (0..roles.len()).map(place).collect();
@@ -262,7 +240,7 @@ fn not_found(name: &str, lines: &[&str], roles: &[Role], wanted: &[Option<String
     let needed = needed(roles);
     let mut best: Vec<String> = Vec::new();
     for line in lines {
-        let delimiter = DELIMITERS.into_iter().find(|mark| line.contains(*mark)).unwrap_or(',');
+        let delimiter = delimiter(line);
         let words = cells(line, delimiter);
         let numbers = words.iter().filter(|cell| number(cell, true).is_ok()).count();
         if words.len() > 1 && 2 * numbers > words.len() {
@@ -289,9 +267,7 @@ fn not_found(name: &str, lines: &[&str], roles: &[Role], wanted: &[Option<String
         // Those that are known by their names; which the others are nobody knows.
         let by_name = |role: usize| {
             let names = best.iter().map(|cell| name_and_unit(cell).0);
-            let known = |name: &String| {
-                roles[role].known.contains(&name.to_lowercase().replace([' ', '-'], "_").as_str())
-            };
+            let known = |name: &String| roles[role].known.contains(&normal(name).as_str());
             names.into_iter().find(known).unwrap_or_else(|| "...".to_owned())
         };
         let example = choice(roles, by_name);
@@ -306,6 +282,11 @@ fn not_found(name: &str, lines: &[&str], roles: &[Role], wanted: &[Option<String
 /// The name of a column and the unit behind it; a bracket that is not closed belongs to the name.
 fn name_and_unit(cell: &str) -> (String, Option<String>) {
     Heading::of(cell).map_or_else(|| (cell.trim().to_owned(), None), |Heading { name, unit }| (name, unit))
+}
+
+/// A name in small letters, its words parted by underscores.
+fn normal(name: &str) -> String {
+    name.to_lowercase().replace([' ', '-'], "_")
 }
 
 /// Whether a word is a unit of something that logs hold.

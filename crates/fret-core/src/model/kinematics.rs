@@ -99,20 +99,21 @@ impl Motion {
         }
     }
 
-    /// Where the upper surface lies after a shift [length]: cells along each axis, rounded to a hundredth of a cell. Along a line contact nothing
-    /// moves.
+    /// Where the upper surface lies after a shift [length]: cells along each axis, rounded to a hundredth of a cell, and less than one is none. Along a
+    /// line contact nothing moves.
     pub fn cells(&self, shift: [f64; 2]) -> [f64; 2] {
         let rounded = |axis: usize| {
             let steps = shift[axis] / self.spacing[axis] * STEPS;
-            (steps + TIE * steps.signum()).round() / STEPS
+            let steps = steps + TIE * steps.signum();
+            if steps.abs() < 1.0 { 0.0 } else { steps.round() / STEPS }
         };
         self.dimension.along(rounded, 0.0)
     }
 
-    /// A rotation, that which moves no cell by more than half of what positions are rounded to is none, or one by right angles.
+    /// A rotation; that which moves no cell by more than a hundredth of one is none, or one by right angles.
     fn angle(&self, twist: f64) -> f64 {
         let right = FRAC_PI_2 * (twist / FRAC_PI_2).round();
-        if (twist - right).abs() * self.rim * STEPS < 0.5 { right } else { twist }
+        if (twist - right).abs() * self.rim * STEPS < 1.0 { right } else { twist }
     }
 
     /// Where the upper surface lies after a shift [length] and a twist [rad].
@@ -146,7 +147,7 @@ impl Motion {
         self.between(place, Place::default())
     }
 
-    /// Whether a motion is less than what positions are rounded to.
+    /// Whether a motion is less than a hundredth of a cell.
     pub fn is_none(&self, shift: [f64; 2]) -> bool {
         self.cells(shift) == [0.0; 2]
     }
@@ -194,7 +195,8 @@ mod tests {
         for eighth in [0.0125, 0.0125 + 2e-18, 0.0125 - 2e-18, (0.3 + 0.0125) - 0.3] {
             assert_eq!(motion.cells([eighth, -3.0 * eighth]), [0.13, -0.13]);
         }
-        assert!(motion.is_none([4.9e-4, -1e-3]) && !motion.is_none([6e-4, 0.0]));
+        assert!(motion.is_none([9.9e-4, -2.9e-3]) && !motion.is_none([1e-3, 0.0]));
+        assert_eq!(motion.cells([1.4e-3, -1.6e-3 * 3.0]), [0.01, -0.02]);
         let line = Motion::over(&SurfaceGrid::line(8, 0.1).unwrap());
         assert_eq!(line.cells([0.1, 0.1]), [1.0, 0.0]);
     }

@@ -290,6 +290,15 @@ impl<M> Stage<M> {
         self.by_freedom().into_iter().flatten()
     }
 
+    /// Increments as the key of the stage counts them: those between two rows, where a table has its course.
+    pub fn increments_by_key(&self) -> usize {
+        let rows = self.controls().map(|control| match control.path() {
+            Path::Through(values) => values.len(),
+            _ => 1,
+        });
+        self.increments / rows.fold(1, usize::max)
+    }
+
     /// Whether the stage prescribes a bulk stress.
     pub fn stretches(&self) -> bool {
         self.bulk_stress.iter().flatten().any(Option::is_some)

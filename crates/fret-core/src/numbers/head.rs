@@ -1,5 +1,6 @@
-//! What the lines above the numbers of a text say of them, as Gwyddion and its kin write it: unit, width and height.
+//! What the lines above the numbers of a text say of them: unit, width and height, as Gwyddion and its kin write it, and names of columns.
 
+use super::cells::{cells, delimiter};
 use super::comments::is_comment;
 
 /// Lines that are looked at.
@@ -21,19 +22,23 @@ pub struct Head {
     pub width: Option<(f64, String)>,
     /// Length of a column, number and unit.
     pub height: Option<(f64, String)>,
+    /// Cells of the last line of words.
+    pub names: Vec<String>,
 }
 
-/// The head of a text: lines `# Width: 10.0 µm`, `# Height: 8 µm`, `# Value units: m` above its numbers, with or without their mark.
+/// The head of a text: lines `# Width: 10.0 µm`, `# Height: 8 µm`, `# Value units: m` above its numbers, with or without their mark; and a
+/// line `x [mm]; z [um]`.
 pub fn head(text: &str) -> Head {
     let mut head = Head::default();
     for line in text.lines().take(LINES) {
         let line = line.trim().trim_start_matches(['#', '%', '!', ';', '/']).trim();
         let Some((name, value)) = line.split_once(':') else {
-            if line.is_empty() || is_comment(line) || line.starts_with(|letter: char| letter.is_alphabetic())
-            {
-                continue;
+            if line.starts_with(|letter: char| letter.is_alphabetic() || "\"[(".contains(letter)) {
+                head.names = cells(line, delimiter(line));
+            } else if !line.is_empty() && !is_comment(line) {
+                break;
             }
-            break;
+            continue;
         };
         let (name, value) = (name.trim().to_lowercase(), value.trim());
         if UNIT.contains(&name.as_str()) && !value.is_empty() {
@@ -66,14 +71,23 @@ mod tests {
         let german = "# Kanal: Z\n# Breite: 12,5 µm\n# Höhe: 8 µm\n# Value units: m\n1 2\n";
         for text in [english, german, &german.replace("# ", "")] {
             let found = head(text);
-            let right =
-                Head { unit: Some("m".to_owned()), width: size(12.5, "µm"), height: size(8.0, "µm") };
-            assert_eq!(found, right, "{text}");
+            assert_eq!(found.unit.as_deref(), Some("m"), "{text}");
+            assert_eq!([found.width, found.height], [size(12.5, "µm"), size(8.0, "µm")], "{text}");
         }
-        for text in
-            ["1 2\n# Width: 3 um\n", "# Width: large\n1 2\n", "x y z\n0 0 1\n", "", "# Width: -3 um\n1"]
-        {
+        for text in ["1 2\n# Width: 3 um\n", "# Width: large\n1 2\n", "", "# Width: -3 um\n1"] {
             assert_eq!(head(text), Head::default(), "{text:?}");
+        }
+    }
+
+    #[test]
+    fn a_line_of_words_names_columns() {
+        for (text, names) in [
+            ("x y z\n0 0 1\n", ["x", "y", "z"]),
+            ("# probe 3\n# X [mm]; Y [mm]; Z (um)\n0;0;1\n", ["X [mm]", "Y [mm]", "Z (um)"]),
+            ("\"x_mm\",\"y_mm\",\"z_um\"\n0,0,1\n", ["x_mm", "y_mm", "z_um"]),
+            ("x\ty\tz\n[mm]\t[mm]\t[um]\n0\t0\t1\n", ["[mm]", "[mm]", "[um]"]),
+        ] {
+            assert_eq!(head(text).names, names, "{text}");
         }
     }
 }

@@ -1,7 +1,8 @@
 //! An array of numbers from the bytes of a file: `NumPy`'s .npy (`npy`), or a text with a row a line (`rows`). Below them: the
-//! letters of old and new encodings (`letters`), what commas are (`commas`), what is no row (`comments`), what the lines above them say
-//! (`head`), one number from one word (`word`). Reading the file is somebody else's.
+//! letters of old and new encodings (`letters`), what commas are (`commas`), what is no row (`comments`), the cells of a line of words (`cells`),
+//! what the lines above the numbers say (`head`), one number from one word (`word`). Reading the file is somebody else's.
 
+mod cells;
 mod commas;
 mod comments;
 mod error;
@@ -13,6 +14,7 @@ mod word;
 
 use ndarray::Array2;
 
+pub use cells::{DELIMITERS, cells, delimiter};
 pub use comments::{Skipped, is_comment};
 pub use error::NumbersError;
 pub use head::Head;

@@ -4,9 +4,9 @@ use ndarray::Axis;
 
 use serde::{Deserialize, Serialize};
 
-use super::loaded::is_loaded;
+use super::loaded::{is_loaded, is_twisted};
 use super::simplification::{LeaveOut, Simplification};
-use super::symmetry::{is_stretched, is_twisted};
+use super::symmetry::is_stretched;
 use crate::case::{Case, Stage};
 use crate::kernel::PairResponse;
 use crate::model::{AccumulatedSlip, Body, ContactState, Dimension, SurfaceGrid, Symmetry};
@@ -29,8 +29,8 @@ const FIELDS: [(&str, usize); 5] = [("pressure", 8), ("shear", 16), ("slip", 16)
 /// What is skipped where surfaces that may move do not, why, and what that saves.
 const MOTION: [&str; 3] = [
     "motion of the surfaces",
-    "the upper body moves by less than half a hundredth of a cell",
-    "another gap in every increment",
+    "the upper body moves by less than a hundredth of a cell",
+    "another gap and the carried displacement of the upper body in every increment",
 ];
 
 /// The automatic simplifications of a case, of those that `leave_out` allows.
@@ -38,7 +38,7 @@ pub fn left_out(
     case: &Case,
     grid: &SurfaceGrid,
     coupling: Coupling,
-    (along, symmetry, single_precision, moves): (Option<usize>, Symmetry, bool, bool),
+    (along, symmetry, single_precision, [moves, is_displaced]): (Option<usize>, Symmetry, bool, [bool; 2]),
     leave_out: LeaveOut,
 ) -> Vec<LeftOut> {
     let mut list = Vec::new();
@@ -122,7 +122,7 @@ pub fn left_out(
             "the fraction of the grid outside the active subdomain, in every iteration",
         );
     }
-    if case.kinematics.is_finite() && !moves {
+    if case.kinematics.is_finite() && !is_displaced {
         leave(MOTION[0], MOTION[1], MOTION[2]);
     }
     if single_precision {

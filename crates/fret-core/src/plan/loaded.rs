@@ -17,3 +17,10 @@ pub fn is_loaded(case: &Case, axis: usize, start: Option<&ContactState>) -> bool
 pub fn asks_for_something(control: Control) -> bool {
     control.value() != 0.0
 }
+
+/// Whether the start is twisted or any stage names a twist.
+pub fn is_twisted(case: &Case, start: Option<&ContactState>) -> bool {
+    case.stages.iter().any(|stage| stage.twist.is_some())
+        || case.start.is_some_and(|loads| asks_for_something(loads.twist))
+        || start.is_some_and(|state| state.twist != 0.0)
+}

@@ -27,10 +27,9 @@ pub use extent::ExpectedContact;
 use extent::{COARSE, Unexpected, automatic_size, expected_contact, reaches_beyond};
 pub use left_out::LeftOut;
 pub use memory::of_stress as memory_of_stress;
-use moving::{in_whole_cells, moves_along, with_room_to_move};
+use moving::{in_whole_cells, is_displaced, with_room_to_move};
 pub use simplification::{LeaveOut, Simplification};
 use sliding_extent::with_room_to_slide;
-use symmetry::is_twisted;
 
 /// A case ready to be computed.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -177,15 +176,14 @@ impl Plan {
         let datum = endless.map(|along| case.datum.unwrap_or(size[1 - along]));
         let along = left_out::one_way(&case, &grid, &response, coupling, state)
             .filter(|_| leave_out.takes(Simplification::Transverse));
+        let is_displaced = is_displaced(&case, &grid, state);
         // What each body has worn in its own frame is put together like surfaces that move.
-        let moves = case.kinematics.is_finite() && case.wear.is_some()
-            || case.kinematics.is_finite() && is_twisted(&case, state)
-            || (0..2).any(|axis| moves_along(&case, &grid, axis, state));
+        let moves = is_displaced || case.kinematics.is_finite() && case.wear.is_some();
         let symmetry = mirrors(&case, &grid, coupling, state, leave_out);
         let single_precision = leave_out.takes(Simplification::Precision)
             && precision::single_precision_does(&case, &grid, &response, coupling);
-        let left_out =
-            left_out::left_out(&case, &grid, coupling, (along, symmetry, single_precision, moves), leave_out);
+        let decided = (along, symmetry, single_precision, [moves, is_displaced]);
+        let left_out = left_out::left_out(&case, &grid, coupling, decided, leave_out);
         let increments = case.increments();
         let plan = Self {
             memory_bytes: memory::of_run(&case, &grid, coupling, symmetry),

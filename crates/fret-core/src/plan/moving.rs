@@ -1,10 +1,10 @@
-//! Whether the surfaces of a case move against each other by more than half a hundredth of a cell, and how much room that takes.
+//! Whether the surfaces of a case move against each other by a hundredth of a cell or more, and how much room that takes.
 
-use super::loaded::is_loaded;
+use super::loaded::{is_loaded, is_twisted};
 use crate::case::{Case, CaseError, Stage, walk};
 use crate::model::{ContactState, Control, Frame, LoadStep, MOST_CELLS, Motion, SurfaceGrid, step_towards};
 
-/// Whether the upper body moves along an axis (0: x, 1: y) by more than positions of surfaces are rounded to, as far as the case tells. Where a
+/// Whether the upper body moves along an axis (0: x, 1: y) by a hundredth of a cell or more, as far as the case tells. Where a
 /// force or a spring moves it, it may.
 pub fn moves_along(case: &Case, grid: &SurfaceGrid, axis: usize, start: Option<&ContactState>) -> bool {
     if !case.kinematics.is_finite()
@@ -29,6 +29,12 @@ pub fn moves_along(case: &Case, grid: &SurfaceGrid, axis: usize, start: Option<&
         };
     });
     !stay
+}
+
+/// Whether the upper body moves along an axis, as [`moves_along`] says, or turns.
+pub fn is_displaced(case: &Case, grid: &SurfaceGrid, start: Option<&ContactState>) -> bool {
+    case.kinematics.is_finite() && is_twisted(case, start)
+        || (0..2).any(|axis| moves_along(case, grid, axis, start))
 }
 
 /// Whether the contact rolls along an axis (0: x, 1: y).

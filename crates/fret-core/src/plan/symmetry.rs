@@ -1,6 +1,6 @@
 //! Whether a scene and its loads are their own mirror image, so that a half or a quarter of the grid stands for the whole.
 
-use super::loaded::{asks_for_something, is_loaded};
+use super::loaded::{is_loaded, is_twisted};
 use super::moving::{moves_along, rolls_along};
 use crate::case::Case;
 use crate::model::{BulkCompliance, ContactState, Dimension, SurfaceGrid, Symmetry};
@@ -65,11 +65,4 @@ pub fn is_stretched(case: &Case, axis: usize, start: Option<&ContactState>) -> b
         let mut controls = case.stages.iter().filter_map(|stage| stage.bulk_stress[body][along].as_ref());
         strains.strains(body, along, axis) && controls.any(|control| starts || !control.path().is_zero())
     })
-}
-
-/// Whether the start is twisted or any stage names a twist.
-pub fn is_twisted(case: &Case, start: Option<&ContactState>) -> bool {
-    case.stages.iter().any(|stage| stage.twist.is_some())
-        || case.start.is_some_and(|loads| asks_for_something(loads.twist))
-        || start.is_some_and(|state| state.twist != 0.0)
 }

@@ -25,6 +25,7 @@ mod slip_increment;
 mod steady;
 mod stepping;
 mod stiffest_wave;
+mod strides;
 mod surfaces;
 mod thinning;
 mod wear;

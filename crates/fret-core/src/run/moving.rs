@@ -28,8 +28,8 @@ const STEEPEST: f64 = 0.9;
 const SAME_PLACE: f64 = 1e-4;
 /// Two places are beside each other where they lie no farther apart than this along the axes, in cells: positions are rounded to a hundredth.
 const ONE_ROUNDING: f64 = 0.015;
-/// And by a turn: less than half a hundredth of a cell is rounded to a right angle.
-const ROUNDED_TURN: f64 = 0.006;
+/// And by a turn: less than a hundredth of a cell is rounded to a right angle.
+const ROUNDED_TURN: f64 = 0.011;
 
 /// A solver, with what moves the surfaces from one increment to the next, where they move.
 pub struct Stepper<'a> {

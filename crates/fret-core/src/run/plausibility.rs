@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::rings::Rings;
+use super::strides::Strides;
 use crate::case::Path;
 use crate::history::{Concern, CycleRecord, STIFFEST, StepRecord, Warning};
 use crate::model::{Base, Body, BulkCompliance, Coating, Control, ElasticMaterial, Shape};
@@ -174,6 +175,9 @@ pub struct Gauge {
     shift: Option<(f64, usize)>,
     /// How the contact grows.
     rings: Rings,
+    /// How far it goes.
+    #[serde(default)]
+    strides: Strides,
     worn_depth: f64,
     /// Largest relative change of friction in a single cycle, and its stage.
     friction_change: Option<(f64, usize)>,
@@ -197,6 +201,7 @@ impl Gauge {
     pub fn of(plan: &Plan) -> Self {
         Self {
             rings: Rings::of(plan),
+            strides: Strides::of(plan),
             stays: !plan.case.kinematics.is_finite() && !plan.case.rolls(),
             ..Self::default()
         }
@@ -222,6 +227,7 @@ impl Gauge {
             }
         };
         self.rings.add(record);
+        self.strides.add(record);
         if record.contact_cells > 0 && self.stays {
             let [x, y] = record.shift;
             larger(&mut self.shift, x.hypot(y) / equivalent_radius(record.contact_area));
@@ -291,6 +297,7 @@ impl Gauge {
             look(Concern::ContactNearEdge, &mut touching().map(|end| (end.free as f64, end.stage)));
         }
         found.extend(self.rings.warning(plan));
+        found.extend(self.strides.warning(plan));
         found
     }
 }

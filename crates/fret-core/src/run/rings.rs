@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::case::{Course, Path, Stage};
+use crate::case::{Course, Stage};
 use crate::history::{RING_CELLS, RING_FRACTION, RING_SHEAR, Regime, StepRecord, Warning};
 use crate::model::{Dimension, Shape};
 use crate::plan::{Coupling, Plan};
@@ -118,11 +118,7 @@ impl Rings {
     /// Increments of a stage, as its key counts them, that keep its growth below a limit, and their ramp where that is to be another one.
     fn enough(&self, stage: &Stage, widest: Growth, limit: f64) -> (usize, Option<&'static str>) {
         let over = widest.by / limit;
-        let rows = stage.controls().map(|control| match control.path() {
-            Path::Through(values) => values.len(),
-            _ => 1,
-        });
-        let own = stage.increments as f64 / rows.fold(1, usize::max) as f64;
+        let own = stage.increments_by_key() as f64;
         let (increments, ramp) = match stage.course {
             // Under a force that begins linearly the radius begins with its cube root: hardly any number is enough.
             Course::Linear if widest.early => {

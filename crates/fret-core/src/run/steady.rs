@@ -56,7 +56,7 @@ impl Rolling {
     /// counts as work.
     ///
     /// # Errors
-    /// As [`Rolling::step`]; that it does not converge, when it does not become steady.
+    /// As [`Rolling::step`] of the one increment that is told; that it does not converge, when it does not become steady.
     pub fn until_steady(
         &mut self,
         solver: &mut ContactSolver<'_>,
@@ -79,12 +79,15 @@ impl Rolling {
         let spacing = self.grid.spacing();
         // A plan has found that there is one.
         let step = step_towards(onward.direction, spacing).unwrap_or([1, 0]).map(|cells| cells as f64);
+        if !self.is_held(&start.pressure, step) {
+            return Err(SolveError::ContactAtEdge);
+        }
         let tolerance = self.tolerance;
         let bound = STEADY.max(OF_TOLERANCE * tolerance);
         let (work, made) = (Cell::new(Work::default()), Cell::new(0));
         let mut advance = |solver: &mut ContactSolver<'_>, state: &ContactState, steps: usize| {
             let load = onward.ahead(state, [0, 1].map(|axis| steps as f64 * step[axis] * spacing[axis]));
-            let solved = self.step(solver, state, &load, watch)?;
+            let solved = self.advance(solver, state, &load, watch)?;
             let mut all = work.get();
             all += solved.work;
             work.set(all);

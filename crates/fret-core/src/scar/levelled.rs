@@ -1,4 +1,4 @@
-//! What the instrument adds to a line: tilt, offset, its sense of up. Found from what lies beside the scar.
+//! What the instrument adds to a line: tilt, offset, its sense of up. Found from what lies beside the scar, and so is how rough the line is.
 
 use super::hollow::Hollow;
 use super::line::Line;
@@ -10,6 +10,13 @@ const END: f64 = 0.15;
 const BESIDE: f64 = 1.25;
 /// Points beside the scar on either side, at the least.
 const FEWEST: usize = 3;
+/// A root mean square beside the scar of more than this share of the depth is roughness: the deepest point of such a line is deeper than its scar, by
+/// two or three times as much.
+const ROUGH: f64 = 5e-3;
+/// Means that are taken of a rough line, over the length of the scar by what counts in its square, which is 5/6 of the width of a parabola.
+const MEANS: f64 = 0.12;
+/// What is farther from the surroundings than so many times their root mean square is no roughness.
+const BEYOND: f64 = 3.0;
 /// Rounds in which scar and surroundings are told apart.
 const ROUNDS: usize = 8;
 
@@ -26,6 +33,15 @@ pub struct Levelled {
     pub counts_depths: bool,
     /// Root mean square of what is left beside the scar [length]: the roughness there.
     pub beside: f64,
+    /// Of a rough line, what depth and width are read from: means over so much [length], and their root mean square beside the scar [length].
+    pub means: Option<[f64; 2]>,
+}
+
+impl Levelled {
+    /// Another line, over as much as the means of this one are.
+    pub fn as_rough(&self, line: &Line) -> Line {
+        self.means.map_or(line.clone(), |[over, _]| line.means(over))
+    }
 }
 
 /// Levels a line of heights, or of depths.
@@ -39,14 +55,22 @@ pub fn levelled(name: &str, heights: &Line) -> Result<Levelled, MeasuredError> {
     let mut found = None;
     for _ in 0..ROUNDS {
         let [offset, slope] = straight(heights, &is_beside);
-        let raised: Vec<f64> =
-            heights.x.iter().zip(&heights.z).map(|(x, z)| z - offset - slope * x).collect();
+        let z = heights.x.iter().zip(&heights.z).map(|(x, z)| z - offset - slope * x).collect();
+        let raised = Line { x: heights.x.clone(), z };
+        let roughness = root_mean_square(&raised, &is_beside);
+        let deepest = raised.z.iter().map(|z| z.abs()).fold(0.0, f64::max);
+        let is_rough = roughness > ROUGH * deepest;
+        let over = is_rough.then(|| MEANS * raised.length_beyond(BEYOND * roughness));
+        let shape = over.map_or_else(|| raised.clone(), |over| raised.means(over));
         // What was worn lies on one side of its surroundings, farther from them than what was piled up.
-        let most = |sign: f64| raised.iter().map(|z| sign * z).fold(0.0, f64::max);
+        let most = |sign: f64| shape.z.iter().map(|z| sign * z).fold(0.0, f64::max);
         let counts_depths = most(1.0) > most(-1.0);
-        let sign = if counts_depths { 1.0 } else { -1.0 };
-        let line = Line { x: heights.x.clone(), z: raised.iter().map(|z| sign * z).collect() };
-        let Some(hollow) = Hollow::of(&line) else { break };
+        let down = |line: &Line| Line {
+            x: line.x.clone(),
+            z: line.z.iter().map(|z| if counts_depths { *z } else { -z }).collect(),
+        };
+        let (line, shape) = (down(&raised), down(&shape));
+        let Some(hollow) = Hollow::of(&shape) else { break };
         let reach = BESIDE * 0.5 * hollow.width;
         let now: Vec<bool> = line.x.iter().map(|x| (x - hollow.middle).abs() > reach).collect();
         let count = |left: bool| {
@@ -63,17 +87,22 @@ pub fn levelled(name: &str, heights: &Line) -> Result<Levelled, MeasuredError> {
                 "a line that runs past the scar on both sides, by half of its width",
             ));
         }
-        let of_surroundings = || line.z.iter().zip(&now).filter(|(_, beside)| **beside).map(|(z, _)| z);
-        let squares: f64 = of_surroundings().map(|z| z * z).sum();
-        let beside = (squares / of_surroundings().count() as f64).sqrt();
+        let beside = root_mean_square(&line, &now);
+        let means = over.map(|over| [over, root_mean_square(&shape, &now)]);
         let is_settled = now == is_beside;
         is_beside = now;
-        found = Some(Levelled { line, slope, offset, counts_depths, beside });
+        found = Some(Levelled { line, slope, offset, counts_depths, beside, means });
         if is_settled {
             break;
         }
     }
     found.ok_or_else(|| refused(name, "no scar: the line has no hollow", "a line across the scar"))
+}
+
+/// Root mean square of the chosen points; 0 of none.
+fn root_mean_square(line: &Line, chosen: &[bool]) -> f64 {
+    let points = || line.z.iter().zip(chosen).filter(|(_, chosen)| **chosen).map(|(z, _)| z);
+    (points().map(|z| z * z).sum::<f64>() / points().count().max(1) as f64).sqrt()
 }
 
 /// Offset and slope of the straight line nearest to the chosen points.

@@ -102,6 +102,25 @@ impl Line {
         Some(area / width)
     }
 
+    /// Means of the heights over a width around each point, or over as much of it as the line reaches on both sides.
+    pub(super) fn means(&self, width: f64) -> Self {
+        let [first, last] = [self.x[0], self.x[self.x.len() - 1]];
+        let mean = |(x, z): (&f64, &f64)| {
+            let within = width.min(2.0 * (x - first)).min(2.0 * (last - x)) * (1.0 - f64::EPSILON);
+            if within > 0.0 { self.mean_over(*x, within).unwrap_or(*z) } else { *z }
+        };
+        Self { x: self.x.clone(), z: self.x.iter().zip(&self.z).map(mean).collect() }
+    }
+
+    /// Length of the part that is farther than a height from 0, by what of it counts in the mean of the square [length].
+    pub(super) fn length_beyond(&self, height: f64) -> f64 {
+        let reach = |k: usize| 0.5 * (self.x[(k + 1).min(self.x.len() - 1)] - self.x[k.saturating_sub(1)]);
+        let beyond = || self.z.iter().enumerate().filter(|(_, z)| z.abs() > height);
+        let sum: f64 = beyond().map(|(k, z)| z.abs() * reach(k)).sum();
+        let squares: f64 = beyond().map(|(k, z)| z * z * reach(k)).sum();
+        if squares > 0.0 { sum * sum / squares } else { 0.0 }
+    }
+
     /// Height at a position on the line, straight between its points.
     fn at(&self, position: f64) -> f64 {
         let next = self.x.partition_point(|x| *x < position).clamp(1, self.x.len() - 1);
@@ -121,7 +140,13 @@ mod tests {
     #[test]
     fn lines_of_profilometers_are_read_in_the_units_of_the_case() {
         let mm = Units::new("mm", "N");
-        for (head, comma) in [("x [um];z [nm]\n", true), ("# probe 3\nX (um)\tZ (nm)\n", false)] {
+        for (head, comma) in [
+            ("x [um];z [nm]\n", true),
+            ("# probe 3\nX (um)\tZ (nm)\n", false),
+            ("x_um;z_nm\n", true),
+            ("X_(microns)\tHeight [nm]\n", false),
+            ("Distance_µm;wear_depth_nm\n", true),
+        ] {
             let row = |k: usize| {
                 // from the right to the left, as some stages move
                 let (x, z) = (19.5 - k as f64, 100.0 + k as f64);
@@ -157,5 +182,19 @@ mod tests {
         assert!((line.mean_over(1.25, 1.5).unwrap() - (0.5 * 1.5 + 1.0 * 1.5) / 1.5).abs() < 1e-15);
         assert_eq!(line.mean_over(0.2, 1.0), None);
         assert_eq!(line.mean_over(2.9, 1.0), None);
+    }
+
+    /// A parabola over 2 a: means over a width w are lower by w^2/12 in units of its curvature; half of it counts by (4/3)^2/(16/15) a = 5/3 a.
+    #[test]
+    fn means_and_lengths_of_a_parabola_are_those_of_its_integrals() {
+        let x: Vec<f64> = (0..=4000).map(|k| -2.0 + 1e-3 * f64::from(k)).collect();
+        let z = x.iter().map(|x| (1.0 - x * x).max(0.0)).collect();
+        let line = Line { x, z };
+        let means = line.means(0.3);
+        // of second order in the spacing of the points
+        assert!((means.z[2000] - (1.0 - 0.3 * 0.3 / 12.0)).abs() < 1e-6);
+        assert!((means.z[1500] - (0.75 - 0.3 * 0.3 / 12.0)).abs() < 1e-6);
+        assert_eq!((means.z[0], means.z[4000]), (0.0, 0.0));
+        assert!((line.length_beyond(0.0) - 5.0 / 3.0).abs() < 1e-5);
     }
 }

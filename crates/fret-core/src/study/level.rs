@@ -41,7 +41,7 @@ pub struct Level {
 /// As [`Simulation::run`].
 pub fn solved_level(plan: &Plan, observer: &mut dyn Observer) -> Result<Level, RunError> {
     let started = Instant::now();
-    let mut reader = Reader { quantities: QuantityReader::of(plan), ends: Vec::new(), observer };
+    let mut reader = Reader::of(plan, observer);
     let history = Simulation::new(plan).run(&mut reader)?;
     let ends = reader.ends;
     let work = history.work();
@@ -56,11 +56,44 @@ pub fn solved_level(plan: &Plan, observer: &mut dyn Observer) -> Result<Level, R
     })
 }
 
+/// How far a plan comes.
+#[derive(Debug)]
+pub struct Ends {
+    /// Quantities of interest at the end of each stage that it comes through.
+    pub ends: Vec<StageQuantities>,
+    /// Why it does not come through the others, where there are any.
+    pub missed: Option<RunError>,
+    /// Time of the run, operators included [s].
+    pub wall_s: f64,
+}
+
+/// Solves a plan as far as it comes; `observer` as in [`solved_level`].
+pub fn solved_ends(plan: &Plan, observer: &mut dyn Observer) -> Ends {
+    let started = Instant::now();
+    let mut reader = Reader::of(plan, observer);
+    let missed = Simulation::new(plan).run(&mut reader).err();
+    let Reader { mut ends, of_last, .. } = reader;
+    // A stage that may have ended sooner than it could is not known to have ended.
+    let whole = |end: &StageQuantities| plan.case.stages[end.stage].increments_in_all() == of_last;
+    if missed.is_some() && !ends.last().is_some_and(whole) {
+        ends.pop();
+    }
+    Ends { ends, missed, wall_s: started.elapsed().as_secs_f64() }
+}
+
 /// Reads quantities of interest of the last increment of every stage, whenever that comes.
 struct Reader<'a> {
     quantities: QuantityReader,
     ends: Vec<StageQuantities>,
+    /// Increments of the last stage that was read.
+    of_last: usize,
     observer: &'a mut dyn Observer,
+}
+
+impl<'a> Reader<'a> {
+    fn of(plan: &Plan, observer: &'a mut dyn Observer) -> Self {
+        Self { quantities: QuantityReader::of(plan), ends: Vec::new(), of_last: 0, observer }
+    }
 }
 
 impl Observer for Reader<'_> {
@@ -84,7 +117,10 @@ impl Observer for Reader<'_> {
     ) -> ControlFlow<()> {
         if self.ends.last().is_some_and(|end| end.stage == record.stage) {
             self.ends.pop();
+        } else {
+            self.of_last = 0;
         }
+        self.of_last += 1;
         self.ends.push(self.quantities.read(record, state));
         self.observer.solved(record, state, kept)
     }

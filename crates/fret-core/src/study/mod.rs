@@ -28,7 +28,7 @@ pub use closed_form::ClosedForm;
 pub use errors::{Errors, Form, errors, orders};
 pub use estimate::{Bar, Bars, companion, error_bars, resolved};
 pub use expectation::{Expectation, expectation};
-pub use level::{Level, solved_level};
+pub use level::{Ends, Level, solved_ends, solved_level};
 pub use normal_form::{NormalForm, Pressed};
 pub use partial_slip::{Loaded, PartialSlip, TangentialForm};
 pub use peak::peak_pressure;

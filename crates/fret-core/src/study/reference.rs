@@ -80,10 +80,11 @@ impl Reference {
 
     /// The finest level of a solved study.
     pub fn finest(finest: &Level) -> Self {
-        // What a history does not end with, as the shift of one that ends by rolling on steadily, is nothing to judge it by.
+        // The way there is nothing to judge a history by that rolls on steadily in the end: shift and energy are those of its last cell.
         let ends_with = |quantity| finest.ends.last().is_some_and(|end| end.between(quantity).is_some());
         let of = |quantity: Quantity| {
-            let is_told = ends_with(quantity);
+            let is_of_the_way = matches!(quantity, Quantity::Shift | Quantity::DissipatedEnergy);
+            let is_told = !is_of_the_way || ends_with(quantity);
             let values = finest.ends.iter().map(|end| end.between(quantity).filter(|_| is_told));
             (values.collect(), Source::Finest)
         };

@@ -33,15 +33,19 @@ const POUND: f64 = 4.448_221_615_260_5;
 const INCH: f64 = 0.0254;
 
 /// Units that take none.
-const WITHOUT_PREFIX: [(&str, Known); 18] = [
+const WITHOUT_PREFIX: [(&str, Known); 22] = [
     ("lbf", known(POUND, 0, 0, 1)),
     ("kp", known(9.806_65, 0, 0, 1)),
     ("dyn", known(1.0, -5, 0, 1)),
     ("in", known(25.4, -3, 1, 0)),
     ("inch", known(25.4, -3, 1, 0)),
+    ("inches", known(25.4, -3, 1, 0)),
     ("mil", known(25.4, -6, 1, 0)),
     ("ft", known(304.8, -3, 1, 0)),
     ("micron", known(1.0, -6, 1, 0)),
+    ("microns", known(1.0, -6, 1, 0)),
+    ("micrometer", known(1.0, -6, 1, 0)),
+    ("micrometers", known(1.0, -6, 1, 0)),
     ("Å", known(1.0, -10, 1, 0)),
     ("Angstrom", known(1.0, -10, 1, 0)),
     ("psi", known(POUND / (INCH * INCH), 0, -2, 1)),

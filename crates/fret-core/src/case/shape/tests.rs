@@ -396,6 +396,38 @@ fn heads_of_texts_carry_units_and_sizes() {
     assert!(error.contains("say they are in \"V\"") && error.contains("unit = length"), "{error}");
 }
 
+/// A plane of 4 x 4 points, in a case in mm: coordinates in um and heights in nm, by every way that heads have units.
+#[test]
+fn heads_of_lists_of_points_carry_units() {
+    for head in [
+        "x_um;y_um;z_nm",
+        "# X (microns); Y (microns); Height [nm]",
+        "X_(µm);Y_(µm);Z_(nm)",
+        "x;y;z\num;um;nm",
+    ] {
+        let rows: String = (0..16)
+            .map(|k| (k / 4, k % 4))
+            .map(|(i, j)| format!("{};{};{}\n", 500 * i + 250, 500 * j + 250, 100 * (3 * i + j)))
+            .collect();
+        let text = format!("{head}\n{rows}");
+        for words in ["", "fill = \"harmonic\""] {
+            let case = scanned(words, text.as_bytes(), None).unwrap();
+            let depths = case.profile.heights[0].depths();
+            // the highest point, 1200 nm, is 0: slopes of 300 and 100 nm a cell to rounding
+            for ((i, j), depth) in depths.indexed_iter() {
+                let right = 1e-4 * (12 - (3 * i + j)) as f64;
+                assert!((depth - right).abs() < 1e-15, "{head}, {words}: {depth} for {right}");
+            }
+        }
+        // a unit in the case goes before that of the heights
+        let given = scanned("unit = 1.0", text.as_bytes(), None).unwrap();
+        assert!((given.profile.heights[0].depths()[[0, 0]] - 1200.0).abs() < 1e-9);
+        let wrong = text.replacen("nm", "kN", 1);
+        let error = scanned("", wrong.as_bytes(), None).unwrap_err();
+        assert!(error.contains("say they are in \"kN\""), "{error}");
+    }
+}
+
 /// Texts that are an instrument's by their names are not taken for plain numbers anywhere: they state units in heads of their own.
 #[test]
 fn texts_of_instruments_are_read_by_their_reader_alone() {

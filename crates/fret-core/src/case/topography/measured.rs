@@ -11,7 +11,7 @@ use crate::heights::marks::without_marks;
 use crate::heights::points;
 use crate::model::{Axis, Dimension};
 use crate::numbers::Head;
-use crate::units::{conversion, known_units};
+use crate::units::{Heading, conversion, is_unit, known_units};
 
 impl Question<'_> {
     /// Heights of a scan; `unit` and `rows` were given for them.
@@ -56,9 +56,33 @@ impl Question<'_> {
         })
     }
 
-    /// Length of one unit of the heights of an array: given, or that of the lines above the numbers, or that of the case.
-    pub fn unit(&self, judge: &mut Judge, given: Option<f64>, head: &Head) -> Option<f64> {
-        let (None, Some(unit)) = (given, &head.unit) else { return Some(given.unwrap_or(1.0)) };
+    /// An array of heights and its layout: the length of one unit of it is given, or that of the lines above the numbers, or that of the case.
+    /// Coordinates whose units these lines name come back in that of the case; others are in it or in that of the heights.
+    pub fn with_unit(
+        &self,
+        judge: &mut Judge,
+        mut array: Array2<f64>,
+        (rows, given, head): (Axis, Option<f64>, &Head),
+    ) -> Option<(Array2<f64>, Layout)> {
+        let units = if head.names.len() == array.ncols() { units_in(&head.names) } else { vec![None] };
+        let (of_heights, of_places) = units.split_last()?;
+        let unit = match (given, head.unit.as_ref().or(of_heights.as_ref())) {
+            (None, Some(unit)) => self.in_head(judge, unit)?,
+            _ => given.unwrap_or(1.0),
+        };
+        let of_places: Option<Vec<&String>> = of_places.iter().map(Option::as_ref).collect();
+        let Some(of_places) = of_places.filter(|places| !places.is_empty()) else {
+            return Some((array, Layout { rows, unit, unit_of_places: unit }));
+        };
+        for (column, place) in of_places.into_iter().enumerate() {
+            let factor = self.in_head(judge, place)?;
+            array.column_mut(column).mapv_inplace(|place| place * factor);
+        }
+        Some((array, Layout { rows, unit, unit_of_places: 1.0 }))
+    }
+
+    /// Length of a unit that the lines above the numbers name.
+    fn in_head(&self, judge: &mut Judge, unit: &str) -> Option<f64> {
         match conversion(unit, "length", judge.units.as_ref()) {
             Ok(conversion) => Some(conversion.factor()),
             Err(error) => {
@@ -117,7 +141,7 @@ impl Question<'_> {
             && array.nrows() > 3
             && points::own_cells(&array.view()).is_none()
         {
-            return self.uneven(judge, &array, given, layout.unit);
+            return self.uneven(judge, &array, given, layout);
         }
         if (dimension, array.ncols()) == (Dimension::Line, 3) {
             return self.refuse(
@@ -146,8 +170,8 @@ impl Question<'_> {
                     dimension.axes().all(|axis| (own_size[axis] * unit / given[axis] - 1.0).abs() < SPACING)
                 })
             };
-            let unit = match (fits(1.0), fits(layout.unit)) {
-                (true, true) if layout.unit != 1.0 && given.is_none() => {
+            let unit = match (fits(1.0), fits(layout.unit_of_places)) {
+                (true, true) if layout.unit_of_places != 1.0 && given.is_none() => {
                     return self.refuse(
                         judge,
                         "the coordinates of the points may be in the unit of the heights or in that of the case",
@@ -155,7 +179,7 @@ impl Question<'_> {
                     );
                 }
                 (true, _) => 1.0,
-                (false, true) => layout.unit,
+                (false, true) => layout.unit_of_places,
                 (false, false) => {
                     let why = format!("size: the points lie on {own_size:?}, in their own unit");
                     return self.refuse(judge, &why, "leave size out, or correct it");
@@ -182,7 +206,7 @@ impl Question<'_> {
         judge: &mut Judge,
         array: &Array2<f64>,
         given: Option<[f64; 2]>,
-        unit: f64,
+        layout: Layout,
     ) -> Option<Measured> {
         let mut points: Vec<[f64; 2]> = array.rows().into_iter().map(|row| [row[0], row[1]]).collect();
         points.sort_by(|one, other| one[0].total_cmp(&other[0]));
@@ -196,8 +220,8 @@ impl Question<'_> {
             );
         }
         let fits = |unit: f64| given.is_none_or(|given| (range * unit / given[0] - 1.0).abs() < SPACING);
-        let factor = match (fits(1.0), fits(unit)) {
-            (true, true) if unit != 1.0 => {
+        let factor = match (fits(1.0), fits(layout.unit_of_places)) {
+            (true, true) if layout.unit_of_places != 1.0 => {
                 return self.refuse(
                     judge,
                     "the coordinates of the points may be in the unit of the heights or in that of the case",
@@ -205,7 +229,7 @@ impl Question<'_> {
                 );
             }
             (true, _) => 1.0,
-            (false, true) => unit,
+            (false, true) => layout.unit_of_places,
             (false, false) => {
                 let why = format!("size: the points lie on {range}, in their own unit");
                 return self.refuse(judge, &why, "leave size out, or correct it");
@@ -213,7 +237,7 @@ impl Question<'_> {
         };
         let heights = Array2::from_shape_fn((points.len(), 1), |(point, _)| points[point][1]);
         Some(Measured {
-            heights: without_marks(heights).mapv(|height| height * unit),
+            heights: without_marks(heights).mapv(|height| height * layout.unit),
             size: Some([range * factor; 2]),
             places: Some(points.iter().map(|point| (point[0] - first) * factor).collect()),
             read_by: None,
@@ -246,4 +270,13 @@ impl Question<'_> {
             "",
         )
     }
+}
+
+/// Units beside the names of columns, or those of a line of units.
+fn units_in(names: &[String]) -> Vec<Option<String>> {
+    let plain = |name: &String| name.trim_matches(['[', ']', '(', ')']).to_owned();
+    if names.iter().all(|name| is_unit(&plain(name))) {
+        return names.iter().map(|name| Some(plain(name))).collect();
+    }
+    names.iter().map(|name| Heading::of(name)?.unit.filter(|unit| !unit.is_empty())).collect()
 }
