@@ -176,7 +176,8 @@ impl SweepFolder {
         self.place(point).with_extension("run")
     }
 
-    fn place(&self, point: &Point) -> PathBuf {
+    /// The file of a point.
+    pub fn place(&self, point: &Point) -> PathBuf {
         self.path.join(POINTS).join(self.file_name(point))
     }
 

@@ -149,6 +149,113 @@ fn a_verbose_run_tells_every_increment_and_the_methods() {
     assert_eq!(bench.fret(&["run", "case.toml", "-v", "-q"]).code, Some(1));
 }
 
+/// Every verb but those whose answer is all they do (or that never ends by itself).
+const WITH_RESULTS: [&str; 13] = [
+    "run",
+    "check",
+    "plan",
+    "init",
+    "report",
+    "export",
+    "study",
+    "sensitivity",
+    "stress",
+    "identify",
+    "compare-scar",
+    "heat",
+    "sweep",
+];
+
+#[test]
+fn every_verb_with_results_takes_the_same_options() {
+    let bench = Bench::new("options");
+    for verb in WITH_RESULTS {
+        let help = bench.fret(&[verb, "--help"]).out;
+        for option in ["  -o, --out <", "  -q, --quiet", "  -v, --verbose"] {
+            assert!(help.contains(option), "{verb} {option}: {help}");
+        }
+        let both = bench.fret(&[verb, "-q", "-v"]);
+        assert_eq!(both.code, Some(1), "{verb}");
+        assert!(both.err.contains("cannot be used with"), "{verb}: {}", both.err);
+    }
+    let all = bench.fret(&["--help"]).out;
+    let verbs = all.split("Commands:").nth(1).unwrap().split("Options:").next().unwrap();
+    let names = verbs.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   "));
+    let names: Vec<&str> = names.filter_map(|line| line.split_whitespace().next()).collect();
+    let without = ["explain", "schema", "completions", "man", "explore", "help"];
+    let others: Vec<&&str> = names.iter().filter(|name| !WITH_RESULTS.contains(name)).collect();
+    assert!(others.iter().all(|name| without.contains(name)) && others.len() == without.len(), "{others:?}");
+}
+
+/// Quiet says nothing at all, verbose what is done on the way and which files are written; a folder takes the answer, word for word that of
+/// standard output.
+#[test]
+fn answers_about_a_run_go_where_they_are_asked_to() {
+    let bench = Bench::new("options-used");
+    let conducting = SPHERE.replace(
+        "substrate = { young = 210e9, poisson = 0.3 }",
+        "substrate = { young = 210e9, poisson = 0.3, thermal_conductivity = 45.0 }",
+    );
+    let both = conducting
+        .replace("rigid = true", "substrate = { young = 210e9, poisson = 0.3, thermal_conductivity = 45.0 }");
+    bench.file("case.toml", &both);
+    assert_eq!(bench.fret(&["run", "case.toml", "-q", "-o", "run"]).code, Some(0));
+    let of_run = |verb: &'static str| [verb, "run"];
+    for (words, mark) in [
+        (of_run("stress"), "stress.json"),
+        (of_run("heat"), "heat.json"),
+        (["sensitivity", "case.toml"], "sensitivity.json"),
+        (["study", "case.toml"], "study.json"),
+    ] {
+        let folder = format!("told-{}", words[0]);
+        let quiet = bench.fret(&[words[0], words[1], "-q", "-o", &folder]);
+        assert_eq!((quiet.code, quiet.out.as_str(), quiet.err.as_str()), (Some(0), "", ""), "{words:?}");
+        let told = bench.fret(&[words[0], words[1], "-v", "-o", &folder]);
+        assert_eq!(told.code, Some(0), "{words:?}: {}", told.err);
+        assert!(!told.out.is_empty());
+        let written = format!("{mark}\n");
+        assert!(
+            told.err.lines().any(|line| line.starts_with("written: ") && line.ends_with(mark)),
+            "{}",
+            told.err
+        );
+        assert!(told.err.contains(&written) && told.err.contains("done in "), "{words:?}: {}", told.err);
+        let steps = told.err.lines().filter(|line| !line.starts_with("written: ")).count();
+        assert!(steps > 1, "{words:?}: {}", told.err);
+        let told = bench.fret(&[words[0], words[1], "--json", "-o", &folder]);
+        let mut on_screen: Value = serde_json::from_str(&told.out).unwrap();
+        let mut in_file: Value = serde_json::from_str(&bench.text(&format!("{folder}/{mark}"))).unwrap();
+        for answer in [&mut on_screen, &mut in_file] {
+            answer.as_object_mut().unwrap().remove("wall_s");
+        }
+        assert_eq!(on_screen, in_file, "{words:?}");
+        // nothing but answers of this kind is replaced
+        let refused = bench.fret(&[words[0], words[1], "-o", "run"]);
+        assert_eq!(refused.code, Some(1), "{words:?}: {}", refused.err);
+        assert!(refused.err.contains("--out DIR"), "{words:?}: {}", refused.err);
+    }
+    assert!(!bench.folder.join("run/stress").exists());
+    let rows = bench.text("told-sensitivity/sensitivity.csv");
+    let record: Value = serde_json::from_str(&bench.text("told-sensitivity/sensitivity.json")).unwrap();
+    let row = rows
+        .lines()
+        .find(|row| row.starts_with("max_pressure,") && row.contains(",profile.sphere.radius,"))
+        .unwrap();
+    let derivative: f64 = row.split(',').nth(4).unwrap().parse().unwrap();
+    let by = &record["of"]["max_pressure"]["derivatives"]["profile.sphere.radius"];
+    assert_eq!(Some(derivative), by.as_f64());
+    for verb in ["check", "plan"] {
+        let file = format!("{verb}.json");
+        let quiet = bench.fret(&[verb, "case.toml", "-q", "-o", &file]);
+        assert_eq!((quiet.code, quiet.out.as_str()), (Some(0), ""), "{}", quiet.err);
+        assert_eq!(
+            serde_json::from_str::<Value>(&bench.text(&file)).unwrap()["grid"].is_object(),
+            verb == "plan"
+        );
+    }
+    assert!(bench.fret(&["check", "case.toml", "-v"]).err.contains("automatic simplifications"));
+}
+
 #[test]
 fn shells_and_man_know_every_verb() {
     let bench = Bench::new("shells");

@@ -241,7 +241,7 @@ fn the_largest_pressure_at_an_edge_or_a_tip_has_no_limit() {
         assert!(peaks.windows(2).all(|pair| pair[1] > 1.02 * pair[0]), "{name}: {peaks:?}");
         let choice = said["choice"].as_str().unwrap();
         assert!(choice.contains("max pressure is left out: it has no limit"), "{name}: {choice}");
-        let table = bench.fret(&["study", &file, "--quiet"]);
+        let table = bench.fret(&["study", &file]);
         assert!(table.out.contains("no limit, it grows with the number of cells"), "{name}: {}", table.out);
         assert!(!table.out.contains("  max pressure  "), "no column of errors: {}", table.out);
         let run = bench.fret(&["run", &file]);
