@@ -61,6 +61,45 @@ fn every_template_is_a_case_that_runs() {
     assert!(list.contains("ball-on-flat") && list.contains("indentation"), "{list}");
 }
 
+/// The rough template repeats without a seam, and its largest pressure has a limit: on finer cells it changes less and less, by half at the
+/// least (the edges of the contacts are found to a cell).
+#[test]
+fn the_rough_template_repeats_and_converges() {
+    let bench = Bench::new("template-rough");
+    assert_eq!(bench.fret(&["init", "rough"]).code, Some(0));
+    let rows: Vec<Vec<f64>> = bench
+        .text("rough-heights.txt")
+        .lines()
+        .filter(|line| !line.starts_with('#'))
+        .map(|line| line.split(' ').map(|height| height.parse().unwrap()).collect())
+        .collect();
+    let (nx, ny) = (rows.len(), rows[0].len());
+    // second differences, where a wave of 16 points has none larger than (2 pi / 16)^2 of its height
+    let bend = |at: [usize; 2], step: [usize; 2]| {
+        let to = |times: usize| rows[(at[0] + times * step[0]) % nx][(at[1] + times * step[1]) % ny];
+        (to(0) - 2.0 * to(1) + to(2)).abs()
+    };
+    for (step, seam) in [([1, 0], [nx - 2, 0]), ([0, 1], [0, ny - 2])] {
+        let along = |place: usize, across: usize| {
+            [place * step[0] + across * step[1], place * step[1] + across * step[0]]
+        };
+        let largest = |places: std::ops::Range<usize>| {
+            let all = places.flat_map(|place| (0..nx).map(move |across| (place, across)));
+            all.map(|(place, across)| bend(along(place, across), step)).fold(0.0, f64::max)
+        };
+        let (inside, across) = (largest(0..nx - 2), largest(seam[0].max(seam[1])..nx));
+        assert!(across <= 1.5 * inside, "{across} over the seam, {inside} inside");
+    }
+    let answer = bench.fret(&["study", "rough.toml", "--cells", "16,32,64", "--json"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    let told: Value = serde_json::from_str(&answer.out).unwrap();
+    let levels = told["lines"][0]["levels"].as_array().unwrap();
+    let pressures: Vec<f64> =
+        levels.iter().map(|level| level["ends"][0]["max_pressure"].as_f64().unwrap()).collect();
+    let changes: Vec<f64> = pressures.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    assert!(changes[1] < 0.5 * changes[0], "{pressures:?}");
+}
+
 #[test]
 fn every_warning_is_explained() {
     let bench = Bench::new("explained");
