@@ -106,8 +106,8 @@ def unit(name: str) -> str:
 def described(meaning: str, units: Units, drives: Collection[str] = ()) -> dict[str, str]:
     """Return the attributes of a variable from its meaning, which has the kind of quantity in brackets at its end.
 
-    ``units`` is an attribute of its own where the case declares units, or the kind has one: 1, s, rad. ``drives`` are the
-    words of the cycles: where all turn, a quantity can be of another kind, and where some do, it has no one unit.
+    ``units`` is an attribute of its own where the case declares units, or the kind has one: 1, s, rad. ``drives`` are
+    the words of the cycles: where all turn, a quantity can be of another kind, and where some do, it has no one unit.
     """
     words, bracket, rest = meaning.rpartition(" [")
     kind, turns, turning = rest.rstrip("]").partition(TORSION)

@@ -171,8 +171,8 @@ def _samples(uncertain: Mapping[Any, Any], draw: Draw) -> list[Dimension]:
         return all_of_them
 
     named = {key: given.apply for key, given in uncertain.items() if isinstance(given, Parameter)}
-    keys = {name: apply for name, apply in named.items() if isinstance(apply, str)}
-    return [Dimension("sample", columns, [change(row) for row in rows], keys)]
+    own = {name: apply for name, apply in named.items() if isinstance(apply, str)}
+    return [Dimension("sample", columns, [change(row) for row in rows], own)]
 
 
 def _applied(key: str, given: object) -> Callable[[object], Callable[[Table], object]]:
