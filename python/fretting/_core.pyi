@@ -32,6 +32,7 @@ __all__ = [
     "identify",
     "identify_indentation",
     "influence_coefficients",
+    "kind_of_key",
     "line_history",
     "memory_needed",
     "mindlin_deresiewicz",
@@ -86,6 +87,7 @@ class InCommon:
     def increments(self) -> int: ...
 
 def vocabulary() -> str: ...
+def kind_of_key(key: str) -> str | None: ...
 
 @final
 class History:

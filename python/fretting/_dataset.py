@@ -99,7 +99,8 @@ def of_history(history: "History", every: bool) -> "xarray.Dataset":
         coordinates |= _cycle_coordinates(history)
         for name, column in history.cycles.items():
             if name not in ("cycle", "stage"):
-                variables[f"cycle_{name}"] = ("cycle", column, described(cycles.MEANING[name], history._units))
+                meaning = described(cycles.MEANING[name], history._units, history.cycles["drive"].tolist())
+                variables[f"cycle_{name}"] = ("cycle", column, meaning)
     attributes = {"stages": history.stages, "status": history.status}
     dataset: xarray.Dataset = library.Dataset(variables, coords=coordinates, attrs=attributes)
     return dataset

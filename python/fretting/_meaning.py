@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any, Literal, get_args
 
 from fretting import _core
@@ -32,8 +32,16 @@ _VOCABULARY: dict[str, Any] = json.loads(_core.vocabulary())
 _KINDS: dict[str, type] = {"int": int, "float": float, "bool": bool, "str": str}
 
 
-def _meanings(entries: list[dict[str, str]]) -> dict[str, str]:
-    return {entry["name"]: entry["meaning"] + (f" [{entry['unit']}]" if entry["unit"] else "") for entry in entries}
+TORSION = "; of torsion "
+"""What stands between the two kinds of a quantity that is another one where the contact turns."""
+
+
+def _meanings(entries: list[dict[str, Any]]) -> dict[str, str]:
+    def bracket(entry: dict[str, Any]) -> str:
+        kinds = [entry["unit"], entry["turning"]] if entry.get("turning") else [entry["unit"]]
+        return f" [{TORSION.join(kinds)}]" if entry["unit"] else ""
+
+    return {entry["name"]: entry["meaning"] + bracket(entry) for entry in entries}
 
 
 def _kinds(entries: list[dict[str, str]]) -> dict[str, type]:
@@ -95,13 +103,19 @@ def unit(name: str) -> str:
     return MEANING[name].partition("[")[2].rstrip("]")
 
 
-def described(meaning: str, units: Units) -> dict[str, str]:
+def described(meaning: str, units: Units, drives: Collection[str] = ()) -> dict[str, str]:
     """Return the attributes of a variable from its meaning, which has the kind of quantity in brackets at its end.
 
-    ``units`` is an attribute of its own where the case declares units, or the kind has one: 1, s, rad.
+    ``units`` is an attribute of its own where the case declares units, or the kind has one: 1, s, rad. ``drives`` are
+    the words of the cycles: where all turn, a quantity can be of another kind, and where some do, it has no one unit.
     """
     words, bracket, rest = meaning.rpartition(" [")
-    kind = rest.rstrip("]")
+    kind, turns, turning = rest.rstrip("]").partition(TORSION)
+    if turns and len(set(drives)) > 1:
+        return {"long_name": meaning}
+    if turns:
+        kind = turning if "torsional" in drives else kind
+        meaning = f"{words} [{kind}]"
     if bracket and kind in ("-", "s", "rad"):
         return {"long_name": words, "units": "1" if kind == "-" else kind}
     if bracket and units:

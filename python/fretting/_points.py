@@ -5,7 +5,7 @@ import itertools
 import json
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -54,6 +54,8 @@ class Dimension:
     name: str
     coordinates: dict[str, list[Any]]
     changes: list[Callable[[Table], object]]
+    keys: dict[str, str] = field(default_factory=dict)
+    """Keys of the case that parameters of other names change."""
 
 
 @dataclass(frozen=True)
@@ -128,7 +130,7 @@ def _dimension(key: Key, given: object) -> Dimension:
         values = _values(key, given.values)
         apply = given.apply
         if isinstance(apply, str):
-            return Dimension(key, {key: values}, [_by_keys([apply], [value]) for value in values])
+            return Dimension(key, {key: values}, [_by_keys([apply], [value]) for value in values], {key: apply})
         return Dimension(key, {key: values}, [_by_function(apply, value) for value in values])
     if isinstance(key, str):
         values = _values(key, given)
@@ -168,7 +170,9 @@ def _samples(uncertain: Mapping[Any, Any], draw: Draw) -> list[Dimension]:
 
         return all_of_them
 
-    return [Dimension("sample", columns, [change(row) for row in rows])]
+    named = {key: given.apply for key, given in uncertain.items() if isinstance(given, Parameter)}
+    own = {name: apply for name, apply in named.items() if isinstance(apply, str)}
+    return [Dimension("sample", columns, [change(row) for row in rows], own)]
 
 
 def _applied(key: str, given: object) -> Callable[[object], Callable[[Table], object]]:

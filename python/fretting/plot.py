@@ -346,7 +346,7 @@ def animation(
         increment = kept[number]
         dot.set_data([history.increments[motion][increment]], [history.increments[force][increment]])
         image.set_data(frames[number].T)
-        right.set_title(f"increment {increment}", fontsize="medium")
+        left.set_title(f"increment {increment}", fontsize="medium")
         return [dot, image]
 
     return FuncAnimation(figure, draw, frames=len(kept), interval=interval)
@@ -394,9 +394,15 @@ def regime_map(
     edges = [_edges(np.asarray(dataset[name].values, dtype=np.float64), name) for name in (x, y)]
     fixed: dict[str, Any] = {"cmap": colours, "vmin": -0.5, "vmax": len(REGIMES) - 0.5}
     axes.pcolormesh(*edges, codes, **{"edgecolors": "white", "lw": 0.4, **mesh, **fixed})
-    axes.set(xlabel=x, ylabel=y)
-    _colour_legend(axes, [entry for number, entry in enumerate(REGIMES) if (codes == number).any()], "upper left")
+    axes.set(xlabel=_with_unit(dataset[x]), ylabel=_with_unit(dataset[y]))
+    _colour_legend(axes, [entry for number, entry in enumerate(REGIMES) if (codes == number).any()])
     return axes
+
+
+def _with_unit(axis: "xarray.DataArray") -> str:
+    """Return the name of an axis of a sweep with its unit, where its key has one and the case declares units."""
+    unit = axis.attrs.get("units")
+    return f"{axis.name} [{unit}]" if unit else str(axis.name)
 
 
 def _pyplot() -> Any:
@@ -588,10 +594,12 @@ def _edges(centres: Reals, name: str) -> Reals:
     return answer
 
 
-def _colour_legend(axes: Any, entries: Sequence[tuple[str, str]], place: str = "upper right") -> None:
+def _colour_legend(axes: Any, entries: Sequence[tuple[str, str]]) -> None:
+    """Name the colours above the axes, where they hide nothing of what is drawn."""
     from matplotlib.patches import Patch
 
     patches = [Patch(facecolor=colour, edgecolor="0.6", label=word.replace("_", " ")) for word, colour in entries]
-    # Small, so that it fits into the corner beside a round contact.
-    small = {"fontsize": "x-small", "handlelength": 1.0, "borderpad": 0.3, "labelspacing": 0.25, "borderaxespad": 0.3}
-    axes.legend(handles=patches, loc=place, framealpha=0.9, **small)
+    small = {"fontsize": "x-small", "handlelength": 1.0, "borderpad": 0.2, "labelspacing": 0.25, "columnspacing": 0.8}
+    above = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "borderaxespad": 0.2, "frameon": False}
+    # three short words fit above a panel of half a column
+    axes.legend(handles=patches, ncols=min(len(patches), 3), **above, **small)

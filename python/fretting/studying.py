@@ -78,7 +78,7 @@ def study(
         where nothing is known; ``error_of_pressure``, ``error_of_shear``, ``wall_s``, ``convolutions``,
         ``is_efficient`` along ``level``. Beside ``level`` stand ``refined`` (``"cells"``, ``"increments"``,
         ``"together"``, ``"tolerance"``), ``nx``, ``ny``, ``increments`` (of all stages, as text) and ``tolerance``;
-        beside ``quantity``, ``measured_by`` and ``convergence`` (``"observed"``, ``"assumed"`` of two levels,
+        beside ``quantity``, ``measured_by`` and ``convergence`` (``"observed"``, ``"two_levels"``: they show none,
         ``"not_asymptotic"``: no plausible order, not extrapolated, ``"no_limit"``: the maximum contact pressure at a
         sharp edge or a tip). The attribute ``choice`` says in words what to choose for 1 %, 0.1 % and
         0.01 %.

@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from fretting import _case, _core, _start, cycles
 from fretting._arguments import path
-from fretting._meaning import MEANING, described
+from fretting._meaning import MEANING, described, in_units
 from fretting._measuring import UNMEASURED, Measuring, measured, measured_variable
 from fretting._points import Dimension, Draw, Parameters, Point, Table, dimensions, is_uncertain, points
 from fretting._progress import PointLine
@@ -421,12 +421,14 @@ def _dataset(
                     table[place][: len(column)] = column
         dims = names if extra is None else (*names, extra)
         variables[name] = (dims, table, described(MEANING[name], units))
+    drives = [answer["cycle"]["drive"] for answer in answers.values() if "drive" in answer["cycle"]]
     for name in _all_names(answers, "cycle"):
         table = _filled(shape, _sample(answers, "cycle", name))
         for place, answer in answers.items():
             if name in answer["cycle"]:
                 table[place] = answer["cycle"][name]
-        variables[f"cycle_{name}"] = (names, table, described(f"last cycle: {cycles.MEANING[name]}", units))
+        meaning = described(f"last cycle: {cycles.MEANING[name]}", units, drives)
+        variables[f"cycle_{name}"] = (names, table, meaning)
     for name in _all_names(answers, "measured"):
         variables[name] = measured_variable(name, names, shape, answers)
     coordinates: dict[str, Any] = {}
@@ -435,7 +437,8 @@ def _dataset(
             plain = all(isinstance(value, int | float | str) for value in values)
             label = key if plain else f"{key}_values"
             entries = np.asarray(values if plain else [json.dumps(value) for value in values])
-            coordinates[label] = (dimension.name, entries)
+            kind = _core.kind_of_key(dimension.keys.get(key, key)) if units else None
+            coordinates[label] = (dimension.name, entries, {"units": in_units(kind, units)} if kind else {})
     if extra and length:
         coordinates[extra] = (extra, np.arange(length))
     dataset: xarray.Dataset = module.Dataset(variables, coords=coordinates, attrs=attributes)

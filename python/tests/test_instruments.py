@@ -1,6 +1,8 @@
 """Files of instruments: units, sizes and holes arrive as SurfaceTopography has them, in Python and for the command."""
 
+import itertools
 import json
+import math
 from pathlib import Path
 from typing import Any
 
@@ -144,30 +146,106 @@ def test_what_cannot_be_read_is_told(tmp_path: Path) -> None:
         fretting.plan(case(tmp_path, "", CELLS))
 
 
-@pytest.mark.parametrize("name", ["sdf-1.sdf", "nc-1.nc", "gwyddion-export-german.txt"])
-def test_files_of_others_have_the_points_size_and_heights_of_the_other_reader(tmp_path: Path, name: str) -> None:
-    path = Path(__file__).parents[2] / "tests" / "golden" / "instruments" / name
-    if not path.exists():
+GOLDEN = Path(__file__).parents[2] / "tests" / "golden" / "instruments"
+MM = 'units = { length = "mm", force = "N" }\n'
+FILES = {
+    # name: keys of the heights, and how far positions are rounded in the file, of their range
+    "sdf-1.sdf": ("", 0.0),
+    "nc-1.nc": ("", 0.0),
+    "gwyddion-export-german.txt": ('rows = "y"', 0.0),  # as an image the text has its rows along y
+    "matrix-6.txt": ('rows = "y"', 0.0),
+    "xyz-1.txt": ("", 0.0),
+    "xyz-1-different-order.txt": ("", 0.0),
+    "missing_data_2d.xyz": ('fill = "harmonic"', 0.0),
+    "missing_data_1d_uniform.txt": ('fill = "harmonic"', 0.0),
+    "csv-1.csv": ("", 2e-4 / 0.27),
+    "xy-2.txt": ("unit = 1.0", 0.0),
+    "nonuniform.asc": ("", 0.0),
+}
+
+
+def scan_of_the_other_reader(path: Path) -> tuple[Any, list[Any]]:
+    """Return heights and places of the points along each axis, in mm where the file states a unit, filled."""
+    with open_topography(str(path)) as reader:
+        topography = reader.topography()
+        if topography.has_undefined_data:
+            topography = topography.interpolate_undefined_data()
+        if topography.unit is not None:
+            topography = topography.to_unit("mm")
+        heights = np.array(topography.heights())
+        if topography.dim == 1:
+            return heights, [np.array(topography.positions())]
+        counts, sizes = heights.shape, topography.physical_sizes
+        return heights, [(np.arange(n) + 0.5) * float(side) / n for n, side in zip(counts, sizes, strict=True)]
+
+
+def means(places: Any, lane: Any, borders: Any) -> list[float]:
+    """Return the means between borders of what is linear between points, and goes on straight beyond the last."""
+
+    def height(at: Any) -> Any:
+        first = np.clip(np.searchsorted(places, at) - 1, 0, len(places) - 2)
+        rise = (lane[first + 1] - lane[first]) / (places[first + 1] - places[first])
+        return lane[first] + rise * (at - places[first])
+
+    found = []
+    for low, high in itertools.pairwise(borders):
+        at = np.concatenate([[low], places[(places > low) & (places < high)], [high]])
+        found.append(float(np.trapezoid(height(at), at) / (high - low)))
+    return found
+
+
+@pytest.mark.parametrize("name", list(FILES))
+def test_files_of_others_are_solved_with_the_heights_of_the_other_reader(
+    tmp_path: Path, name: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    if not (GOLDEN / name).exists():
         pytest.skip("needs a checkout of the repository")
-    (tmp_path / name).write_bytes(path.read_bytes())
-    theirs, sizes = read_by_the_other(path)
-    # as an image the text has its rows along y
-    keys = 'rows = "y"' if name.endswith(".txt") else ""
-    padded = case(tmp_path, f'{keys}\nresample = "linear"', (16, 16), str([float(side) for side in sizes]))
-    padded.write_text(padded.read_text().replace('file = "scan.nc"', f'file = "{name}"'))
-    treatment = record(padded)
-    assert treatment["points"] == list(theirs.shape)
-    assert treatment["size"] == pytest.approx(list(sizes), rel=1e-9)
-    # On 16 x 16 cells of the surface that is linear between the points: with theirs as an array the same to rounding.
-    question = {
-        "units": {"length": "mm", "force": "N"},
-        "grid": {"cells": [16, 16], "size": [float(side) for side in sizes]},
-        "upper": {"rigid": True},
-        "lower": {"substrate": {"young": 210e3, "poisson": 0.3}},
-        "profile": {"heights": {"values": theirs, "size": [float(side) for side in sizes], "resample": "linear"}},
-        "load": [{"normal_force": 1e-9, "increments": 1}],
-    }
-    (ours,) = fretting.plan(padded)["case"]["profile"]["heights"]
-    (other,) = fretting.plan(question)["case"]["profile"]["heights"]
-    assert ours["valley"] == pytest.approx(other["valley"], rel=1e-9)
-    assert ours["rms"] == pytest.approx(other["rms"], rel=1e-9)
+    (tmp_path / name).write_bytes((GOLDEN / name).read_bytes())
+    heights, places = scan_of_the_other_reader(GOLDEN / name)
+    keys, rounding = FILES[name]
+    # the middle eight tenths of the scan, on 16 cells along each axis
+    borders = [0.5 * (at[0] + at[-1]) + 0.8 * (at[-1] - at[0]) * (np.arange(17) / 16 - 0.5) for at in places]
+    expected = heights
+    for axis in range(len(places)):
+        lanes = np.moveaxis(expected, axis, -1)
+        along = [means(places[axis], lane, borders[axis]) for lane in lanes.reshape(-1, lanes.shape[-1])]
+        expected = np.moveaxis(np.reshape(along, (*lanes.shape[:-1], 16)), -1, axis)
+    sides = [float(border[-1] - border[0]) for border in borders]
+    valley = float(np.ptp(expected))
+    line = len(places) == 1
+    # so little that nothing is deformed by more than a millionth of the heights, or of a cell where they are level
+    force = 1e-6 * 210e3 * (valley or sides[0] / 16) * (1.0 if line else min(sides) / 16)
+    (tmp_path / "case.toml").write_text(
+        f"{MM}grid.cells = {16 if line else [16, 16]}\ngrid.size = {sides[0] if line else sides}\n"
+        "grid.beyond = 'no body'\nupper.rigid = true\nlower.substrate = { young = 210e3, poisson = 0.3 }\n"
+        f"output = {{ fields = ['gap'] }}\nload = [{{ normal_force = {force}, increments = 1 }}]\n"
+        f'[lower.profile.heights]\nfile = "{name}"\nresample = "linear"\n{keys}\n'
+    )
+    assert main(["run", str(tmp_path / "case.toml"), "--quiet", "--out", str(tmp_path / "out")]) == 0, (
+        capfd.readouterr().err
+    )
+    gap = fretting.open_results(tmp_path / "out").field("gap")
+    np.testing.assert_allclose(
+        gap - gap.min(),
+        # metres on micrometres are steeper than anything: a gap is no wider than a million grids
+        np.minimum(expected.max() - expected, 1e6 * math.hypot(*sides)),
+        # the contact deforms by some millionths; positions that are rounded in the file move the heights
+        atol=(1e-4 + rounding) * (valley or sides[0]),
+    )
+    (told,) = json.loads((tmp_path / "out" / "run.json").read_text())["plan"]["case"]["profile"]["heights"]
+    assert told["treatment"]["points"] == [*heights.shape, 1][:2]
+    assert told["valley"] == pytest.approx(valley, rel=1e-9 + rounding, abs=1e-12)
+
+
+def test_a_hole_between_uneven_points_is_refused(tmp_path: Path) -> None:
+    name = "xy-6.txt"
+    if not (GOLDEN / name).exists():
+        pytest.skip("needs a checkout of the repository")
+    (tmp_path / name).write_bytes((GOLDEN / name).read_bytes())
+    (tmp_path / "case.toml").write_text(
+        f"{MM}grid = {{ cells = 16, size = 2.0 }}\nupper.rigid = true\n"
+        "lower.substrate = { young = 210e3, poisson = 0.3 }\nload = [{ normal_force = 1.0, increments = 1 }]\n"
+        f'[lower.profile.heights]\nfile = "{name}"\nresample = "linear"\nfill = "harmonic"\n'
+    )
+    with pytest.raises(fretting.CaseError, match="fill: the points of this line scan are not evenly spaced"):
+        fretting.plan(tmp_path / "case.toml")

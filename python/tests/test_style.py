@@ -44,6 +44,24 @@ def test_a_figure_is_one_column_wide_and_the_look_before_comes_back(history: fre
     plt.close("all")
 
 
+def test_the_legend_of_zones_beside_a_loop_hides_nothing(history: fretting.History) -> None:
+    with fretting.plot.style("paper"):
+        figure, (left, right) = plt.subplots(1, 2)
+        fretting.plot.loop(history, ax=left)
+        fretting.plot.zones(history, ax=right)
+        figure.canvas.draw()
+        legend = right.get_legend()
+        words = {text.get_text() for text in legend.get_texts()}
+        zones = np.unique(history.field("zone", -1))
+        assert words == {("open", "stick", "slip")[int(zone)] for zone in zones}
+        around = legend.get_window_extent()
+        assert not around.overlaps(right.get_window_extent())
+        # whole, on the figure
+        inside = figure.bbox
+        assert around.x0 >= inside.x0 and around.x1 <= inside.x1 and around.y1 <= inside.y1
+    plt.close("all")
+
+
 def test_axes_are_written_in_other_units(history: fretting.History) -> None:
     axes = fretting.plot.scale(history.plot_loop(), "um", "mN")
     assert axes.get_xlabel().endswith("[um]") and axes.get_ylabel().endswith("[mN]")

@@ -392,3 +392,38 @@ def test_declared_units_reach_the_dataset_of_a_sweep(case: dict[str, Any]) -> No
     assert answer["cycle_dissipated_energy"].attrs == {
         "long_name": "last cycle: dissipated energy W_d of this simulated cycle", "units": "N m",
     }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("motion", "units"),
+    [({"shift": [1e-7, 0.0]}, ("N", "m", "N/m")), ({"twist": 1e-3}, ("N m", "rad", "N m"))],
+)
+def test_axes_amplitudes_and_stiffness_have_their_units(
+    case: dict[str, Any], motion: dict[str, Any], units: tuple[str, str, str]
+) -> None:
+    press, rub = case["load"][:2]
+    rub = {"name": "rub", **motion, "cycles": 1, "increments": 8}
+    declared = {**case, "units": {"length": "m", "force": "N"}, "load": [press, rub]}
+    force, twist = "load.0.normal_force", next(iter(motion))
+    answer = fretting.sweep(
+        declared,
+        {
+            force: [0.9 * press["normal_force"], press["normal_force"]],
+            FRICTION: [0.2, 0.3],
+            "named": fretting.Parameter([9e-3, 10e-3], "profile.sphere.radius"),
+        },
+    )
+    assert answer[force].attrs == {"units": "N"}
+    assert answer["named"].attrs == {"units": "m"}
+    assert answer[FRICTION].attrs == {}
+    names = ("cycle_force_amplitude", "cycle_displacement_amplitude", "cycle_stiffness")
+    assert tuple(answer[name].attrs["units"] for name in names) == units, twist
+    alone = fretting.run(declared).to_xarray()
+    assert tuple(alone[name].attrs["units"] for name in names) == units
+    pytest.importorskip("matplotlib").use("Agg")
+    axes = fretting.plot.regime_map(answer.isel(named=0), x=FRICTION, y=force)
+    assert (axes.get_xlabel(), axes.get_ylabel()) == (FRICTION, f"{force} [N]")
+    # without units the kinds of quantities are told in words
+    del declared["units"]
+    plain = fretting.sweep(declared, {FRICTION: [0.2]})
+    assert plain["cycle_force_amplitude"].attrs["long_name"].endswith(("[force]", "[force x length]"))

@@ -1,11 +1,15 @@
 //! What can be typed after `fret`. What it does lives in `commands`.
 
+mod measured;
+
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::manner::Manner;
 use crate::scatter::Scatter;
 use crate::threads::{self, Threads};
+pub use measured::{CompareScarArguments, IdentifyArguments};
 
 /// Fretting and partial slip of coated elastic contacts: pressure, shear, stick and slip zones through a loading history.
 #[derive(Debug, Parser)]
@@ -33,13 +37,7 @@ pub enum Verb {
     /// Print the discretisation, the expected cost and the automatic simplifications; solve nothing
     Plan(PlannedArguments),
     /// Write a case to begin with, with units and comments; without a name the list of them
-    Init {
-        /// Which one: ball-on-flat, coated, cylinder, rig-log, wear, rolling, rough, indentation
-        template: Option<String>,
-        /// The file to write [default: the name with .toml]
-        #[arg(long, short, value_name = "FILE", requires = "template")]
-        out: Option<PathBuf>,
-    },
+    Init(InitArguments),
     /// Explain a warning: what it means for the numbers, and what to do; without a name the list of them
     Explain {
         /// Name of the warning, as in run.json, or the first words of its message
@@ -60,13 +58,7 @@ pub enum Verb {
     },
     /// Write one HTML page of a run (loops, sections, zone maps, energy, convergence), of a sweep (fretting map, curves, uncertainty) or of
     /// a study; needs no network
-    Report {
-        /// The folder of the results of a run, a sweep or a study
-        results: PathBuf,
-        /// The page to write [default: report.html in that folder]
-        #[arg(long, short, value_name = "FILE")]
-        out: Option<PathBuf>,
-    },
+    Report(ReportArguments),
     /// Play with a case in the browser: sliders for moduli, thickness, friction and loads solve it again while they are dragged
     Explore(ExploreArguments),
     /// Convert the results of a run: NumPy, CSV, VTK
@@ -95,29 +87,71 @@ pub enum Verb {
     Sweep(SweepArguments),
 }
 
-/// With how many threads, and how much is told.
+impl Verb {
+    /// Where the verb writes its answer, and how much it tells; nothing of one whose answer is all it does.
+    pub fn manner(&self) -> Option<&Manner> {
+        Some(match self {
+            Self::Run(arguments) => &arguments.manner,
+            Self::Check(arguments) | Self::Plan(arguments) => &arguments.manner,
+            Self::Init(arguments) => &arguments.manner,
+            Self::Report(arguments) => &arguments.manner,
+            Self::Export(arguments) => &arguments.manner,
+            Self::Study(arguments) => &arguments.manner,
+            Self::Sensitivity(arguments) => &arguments.manner,
+            Self::Stress(arguments) => &arguments.manner,
+            Self::Identify(arguments) => &arguments.manner,
+            Self::CompareScar(arguments) => &arguments.manner,
+            Self::Heat(arguments) => &arguments.manner,
+            Self::Sweep(arguments) => &arguments.manner,
+            Self::Explain { .. }
+            | Self::Schema
+            | Self::Completions { .. }
+            | Self::Man { .. }
+            | Self::Explore(_)
+            | Self::Extremes { .. } => return None,
+        })
+    }
+}
+
+/// A case to begin with.
 #[derive(Debug, Args)]
-pub struct Manner {
-    /// Threads.
+#[command(mut_arg("out", |out| out.value_name("FILE").requires("template").help("The file to write [default: the name with .toml]")))]
+pub struct InitArguments {
+    /// Which one: ball-on-flat, coated, cylinder, rig-log, wear, rolling, rough, indentation
+    pub template: Option<String>,
+    /// How it is done.
     #[command(flatten)]
-    pub threads: Threads,
-    /// Print only errors
-    #[arg(long, short)]
-    pub quiet: bool,
+    pub manner: Manner,
+}
+
+/// Of what a page is written.
+#[derive(Debug, Args)]
+#[command(mut_arg("out", |out| out.value_name("FILE").help("The page to write [default: report.html in that folder]")))]
+pub struct ReportArguments {
+    /// The folder of the results of a run, a sweep or a study
+    pub results: PathBuf,
+    /// How it is done.
+    #[command(flatten)]
+    pub manner: Manner,
 }
 
 /// Which case is planned.
 #[derive(Debug, Args)]
+#[command(mut_arg("out", |out| out.value_name("FILE").help("A file to write the answer into, as JSON [default: none]")))]
 pub struct PlannedArguments {
     /// The case file (TOML); - reads it from standard input
     pub case: PathBuf,
     /// Start from a solved state, as `fret run` does
     #[arg(long, value_name = "RESULTS[:INCREMENT]")]
     pub from: Option<String>,
+    /// How it is done.
+    #[command(flatten)]
+    pub manner: Manner,
 }
 
 /// Of what derivatives are taken, and by what.
 #[derive(Debug, Args)]
+#[command(mut_arg("out", |out| out.value_name("DIR").help("Folder for the answer, as JSON and as a table [default: none]")))]
 pub struct SensitivityArguments {
     /// The case file (TOML); - reads it from standard input
     pub case: PathBuf,
@@ -136,22 +170,26 @@ pub struct SensitivityArguments {
     /// Threads.
     #[command(flatten)]
     pub threads: Threads,
+    /// How it is done.
+    #[command(flatten)]
+    pub manner: Manner,
 }
 
 /// How to solve a case.
 #[derive(Debug, Args)]
+#[command(
+    mut_arg("out", |out| out.value_name("DIR").help("Folder for the results [default: results/ and the name of the case]")),
+    mut_arg("verbose", |verbose| verbose.help("Also print a line for every increment, and a paragraph for the methods section of a paper"))
+)]
 pub struct RunArguments {
     /// The case file (TOML); - reads it from standard input
     pub case: PathBuf,
-    /// Folder for the results [default: results/ and the name of the case]
-    #[arg(long, short, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    /// Threads.
+    #[command(flatten)]
+    pub threads: Threads,
     /// How it is done.
     #[command(flatten)]
     pub manner: Manner,
-    /// Also print a line for every increment, and a paragraph for the methods section of a paper
-    #[arg(long, short, conflicts_with = "quiet")]
-    pub verbose: bool,
     /// Write into the folder even if it holds other files; only files of fret are replaced
     #[arg(long)]
     pub force: bool,
@@ -199,21 +237,19 @@ pub struct StudyRequest {
 
 /// Which case to study, and how.
 #[derive(Debug, Args)]
+#[command(mut_arg("out", |out| out.value_name("DIR").help("Folder for the table and the figure [default: results/ and the name of the case with -study]")))]
 pub struct StudyArguments {
     /// The case file (TOML); - reads it from standard input
     pub case: PathBuf,
     /// What is asked.
     #[command(flatten)]
     pub request: StudyRequest,
-    /// Folder for the table and the figure [default: results/ and the name of the case with -study]
-    #[arg(long, short, value_name = "DIR")]
-    pub out: Option<PathBuf>,
     /// Threads.
     #[command(flatten)]
     pub threads: Threads,
-    /// Print only errors and the result
-    #[arg(long, short)]
-    pub quiet: bool,
+    /// How it is done.
+    #[command(flatten)]
+    pub manner: Manner,
 }
 
 /// Which case to play with.
@@ -234,7 +270,10 @@ pub struct ExploreArguments {
 
 /// What to write of a run, in which form.
 #[derive(Debug, Args)]
-#[command(group = clap::ArgGroup::new("form").required(true).multiple(true))]
+#[command(
+    group = clap::ArgGroup::new("form").required(true).multiple(true),
+    mut_arg("out", |out| out.help("The file (npz) or folder (csv, vtk) to write [default: export.npz, csv, vtk in the folder of the results]"))
+)]
 pub struct ExportArguments {
     /// The folder of the results
     pub results: PathBuf,
@@ -251,13 +290,14 @@ pub struct ExportArguments {
         help = "One .vti image per kept increment and a .pvd list, for ParaView and pyvista"
     )]
     pub vtk: bool,
-    /// The file (npz) or folder (csv, vtk) to write [default: export.npz, csv, vtk in the folder of the results]
-    #[arg(long, short, value_name = "PATH")]
-    pub out: Option<PathBuf>,
+    /// How it is done.
+    #[command(flatten)]
+    pub manner: Manner,
 }
 
 /// Which stresses.
 #[derive(Debug, Args)]
+#[command(mut_arg("out", |out| out.value_name("DIR").help("Folder for the answer [default: stress in the folder of the results, where `fret report` finds it]")))]
 pub struct StressArguments {
     /// The results folder of a run, finished or not
     pub folder: PathBuf,
@@ -282,6 +322,9 @@ pub struct StressArguments {
     /// What `ParaView` reads.
     #[arg(long, help = "Write a volume for ParaView of the last evaluated increment")]
     pub volume: bool,
+    /// Threads.
+    #[command(flatten)]
+    pub threads: Threads,
     /// How it is done.
     #[command(flatten)]
     pub manner: Manner,
@@ -289,6 +332,7 @@ pub struct StressArguments {
 
 /// Which temperatures and resistances.
 #[derive(Debug, Args)]
+#[command(mut_arg("out", |out| out.value_name("DIR").help("Folder for the answer [default: heat in the folder of the results, where `fret report` finds it]")))]
 pub struct HeatArguments {
     /// The results folder of a run, finished or not
     pub folder: PathBuf,
@@ -298,6 +342,9 @@ pub struct HeatArguments {
     /// Contact resistance of every N-th kept increment, and the last [default: of the last]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub every: Option<u32>,
+    /// Threads.
+    #[command(flatten)]
+    pub threads: Threads,
     /// How it is done.
     #[command(flatten)]
     pub manner: Manner,
@@ -305,90 +352,18 @@ pub struct HeatArguments {
 
 /// How to solve many cases.
 #[derive(Debug, Args)]
+#[command(mut_arg("out", |out| out.value_name("DIR").help("Folder for the results; points that are finished there are skipped [default: results/ and the name of the sweep]")))]
 pub struct SweepArguments {
     /// The sweep file (TOML): base = "case.toml", and [axes] with "key.of.the.case" = [values], [distributions] with
     /// "key.of.the.case" = { normal = { mean = 0.6, deviation = 0.05 } } and [samples] count = 256,
     /// or both: the samples at every point of the axes
     pub sweep: PathBuf,
-    /// Folder for the results; points that are finished there are skipped [default: results/ and the name of the sweep]
-    #[arg(long, short, value_name = "DIR")]
-    pub out: Option<PathBuf>,
     /// Start every point from a solved state, as `fret run` does
     #[arg(long, value_name = "RESULTS[:INCREMENT]")]
     pub from: Option<String>,
     /// Number of threads, one per point [default: all cores]
     #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,
-    /// Print only errors
-    #[arg(long, short)]
-    pub quiet: bool,
-}
-
-/// Which scar, and which line.
-#[derive(Debug, Args)]
-pub struct CompareScarArguments {
-    /// The results folder of a run with wear, finished or not, that kept its wear depth
-    pub folder: PathBuf,
-    /// The measured line (CSV): position and height, row by row; any lines above the names of the columns
-    pub measured: PathBuf,
-    /// Which column holds what, by name or by number from 1: `position=NAME,height=NAME` [default: usual names]
-    #[arg(long, value_name = "WHAT=NAME,...", value_delimiter = ',')]
-    pub columns: Vec<String>,
-    /// Units of the columns, such as position=um,height=nm [default: those beside the names, or those of the case]
-    #[arg(long, value_name = "WHAT=UNIT,...", value_delimiter = ',')]
-    pub units: Vec<String>,
-    /// The body whose scar it is: upper or lower, of bodies that move against each other [default: lower, or both together]
-    #[arg(long, value_parser = ["upper", "lower"])]
-    pub body: Option<String>,
-    /// Along which axis the line runs, through the deepest place
-    #[arg(long, value_parser = ["x", "y"], default_value = "x")]
-    pub along: String,
-    /// Print only errors
-    #[arg(long, short)]
-    pub quiet: bool,
-}
-
-/// Which loops, and what is known of the test.
-#[derive(Debug, Args)]
-pub struct IdentifyArguments {
-    /// The measured log (CSV): displacement of the actuator and tangential force, row by row, or depth and load of an indentation; any lines above the names of the columns
-    pub log: PathBuf,
-    /// The case: bodies, profile, grid and the stages that press them. Its friction, or its numbers named by --fit, are where the fit starts
-    #[arg(long, value_name = "CASE")]
-    pub case: PathBuf,
-    /// Which column holds what, by name or by number from 1: `displacement=NAME,force=NAME,cycle=NAME,normal_force=NAME`; of an indentation `depth=NAME,force=NAME` [default: rig.columns of the case, else usual names]
-    #[arg(long, value_name = "WHAT=NAME,...", value_delimiter = ',')]
-    pub columns: Vec<String>,
-    /// Units of the columns, such as displacement=um,force=N [default: those beside the names, or those of the case]
-    #[arg(long, value_name = "WHAT=UNIT,...", value_delimiter = ',')]
-    pub units: Vec<String>,
-    /// The cycle to fit, by its number [default: the last whole one]
-    #[arg(long, value_name = "N")]
-    pub cycle: Option<f64>,
-    /// Repeat the fit on the first whole cycle of every N cycle numbers, over the whole test
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), conflicts_with = "indentation")]
-    pub every: Option<u32>,
-    /// Also fit one number of the case, such as lower.substrate.young; of an indentation, numbers of bodies and profile, once for each
-    #[arg(long, value_name = "KEY")]
-    pub fit: Vec<String>,
-    /// The log is load over depth of an indentation: fit the numbers named by --fit, such as lower.coatings[0].young, and the depth at first touch
-    #[arg(long, conflicts_with = "cycle")]
-    pub indentation: bool,
-    /// Of an indentation: which part is fitted [default: whole]
-    #[arg(long, value_name = "PART", value_parser = ["whole", "loading", "unloading"], requires = "indentation")]
-    pub part: Option<String>,
-    /// Of an indentation: the depth at which the indenter touches, in the unit of the case, where it is known [default: fitted]
-    #[arg(long, value_name = "DEPTH", allow_negative_numbers = true, requires = "indentation")]
-    pub touch: Option<f64>,
-    /// Of an indentation: also fit the compliance of the instrument's frame [default: that of the rig in the case, or none]
-    #[arg(long, requires = "indentation")]
-    pub frame: bool,
-    /// Refuse a log with a cycle that is no whole loop, or a row without a number [default: leave these out and name them]
-    #[arg(long)]
-    pub strict: bool,
-    /// Folder for the answer [default: results/ and the name of the log with -identified]
-    #[arg(long, short, value_name = "DIR")]
-    pub out: Option<PathBuf>,
     /// How it is done.
     #[command(flatten)]
     pub manner: Manner,

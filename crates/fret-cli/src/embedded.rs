@@ -19,6 +19,7 @@ use crate::estimate::{Estimate, NoBars};
 pub use crate::failure::Failure;
 pub use crate::identify::Request as IdentifyRequest;
 pub use crate::identify::indentation::IndentationAsked;
+pub use crate::sweep::kinds::kind_of as kind_of_key;
 use crate::terminal;
 use crate::threads;
 use fret_results::{

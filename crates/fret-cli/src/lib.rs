@@ -15,6 +15,7 @@ mod figures;
 mod identify;
 mod interrupt;
 mod loop_numbers;
+mod manner;
 mod methods;
 mod progress;
 mod report;
@@ -28,12 +29,14 @@ mod terminal;
 mod threads;
 
 use std::ffi::OsString;
+use std::time::Instant;
 
 use clap::Parser;
 use clap::error::ErrorKind;
 
 use arguments::{Arguments, Verb};
 use failure::{Failure, Told};
+use manner::Manner;
 
 /// Does what the words of a command line ask for, the first being the program's name; answers go to the process's own
 /// streams. Gives the exit code: 0 solved, 1 refused, 2 failed, 130 interrupted.
@@ -59,6 +62,7 @@ pub fn command_line(words: impl IntoIterator<Item = OsString>) -> u8 {
 
 fn dispatch(arguments: &Arguments) -> Result<(), Told> {
     let as_json = arguments.json;
+    let since = Instant::now();
     let answer = match &arguments.verb {
         // these tell more than an answer, or another kind of one
         Verb::Sweep(arguments) => return commands::sweep::sweep(arguments, as_json),
@@ -75,9 +79,9 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         Verb::Man { out: Some(out) } => commands::shells::pages(out),
         Verb::Check(arguments) => commands::check::check(arguments),
         Verb::Plan(arguments) => commands::plan::plan(arguments),
-        Verb::Init { template, out } => commands::init::init(template.as_deref(), out.as_deref()),
+        Verb::Init(arguments) => commands::init::init(arguments),
         Verb::Explain { warning } => commands::explain::explain(warning.as_deref()),
-        Verb::Report { results, out } => commands::report::report(results, out.as_deref()),
+        Verb::Report(arguments) => commands::report::report(arguments),
         Verb::Export(arguments) => commands::export::export(arguments),
         Verb::Study(arguments) => commands::study::study(arguments),
         Verb::Stress(arguments) => commands::stress::stress(arguments),
@@ -86,7 +90,7 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         Verb::Identify(arguments) => commands::identify::identify(arguments),
         Verb::Sensitivity(arguments) => commands::sensitivity::sensitivity(arguments),
     }?;
-    Ok(answer.tell(as_json)?)
+    Ok(arguments.verb.manner().unwrap_or(&Manner::default()).tell(&answer, as_json, since)?)
 }
 
 /// Help and version are answers; anything else clap objects to is a refusal, for which clap's own exit code 2 is taken.

@@ -13,7 +13,7 @@ use crate::figures::shortened;
 /// Letters of a line that is said, at the most: names and titles come from files, and may be as long as these.
 const LONGEST_LINE: usize = 2000;
 
-/// What a verb answers: a record for programs, and words for a person; without words nothing is said.
+/// What a verb answers: a record for programs, and words for a person.
 #[derive(Debug)]
 pub struct Answer {
     /// For programs.
@@ -23,9 +23,9 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// Both; no words for a person who wants none.
-    pub fn new(record: Value, text: impl Into<String>, quiet: bool) -> Self {
-        Self { record, text: if quiet { String::new() } else { text.into() } }
+    /// Both.
+    pub fn new(record: Value, text: impl Into<String>) -> Self {
+        Self { record, text: text.into() }
     }
 
     /// Tells it to who asks.
@@ -33,11 +33,7 @@ impl Answer {
     /// # Errors
     /// When standard output cannot be written.
     pub fn tell(&self, as_json: bool) -> Result<(), Failure> {
-        match as_json {
-            true => answer_in_json(&self.record),
-            false if self.text.is_empty() => Ok(()),
-            false => answer(&self.text),
-        }
+        if as_json { answer_in_json(&self.record) } else { answer(&self.text) }
     }
 }
 

@@ -165,6 +165,12 @@ impl History {
     }
 }
 
+/// The kind of quantity, such as `force x length`, of a dotted key of a case; nothing where it has no unit.
+#[pyfunction]
+pub fn kind_of_key(key: &str) -> Option<&'static str> {
+    fret_cli::embedded::kind_of_key(key)
+}
+
 /// Every column and field by its kind, name, meaning and unit, as JSON text: what the Python package says of them is made from it.
 #[pyfunction]
 pub fn vocabulary() -> String {
@@ -176,8 +182,8 @@ pub fn vocabulary() -> String {
             Value::Word(_) => "str",
         };
         let entry = |column: &Column<R>| {
-            let Column { name, meaning, unit, value } = column;
-            json!({ "name": name, "meaning": meaning, "unit": unit, "kind": kind(value) })
+            let Column { name, meaning, unit, turning, value } = column;
+            json!({ "name": name, "meaning": meaning, "unit": unit, "turning": turning, "kind": kind(value) })
         };
         columns.iter().map(entry).collect()
     }

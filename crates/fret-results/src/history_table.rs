@@ -5,7 +5,7 @@ use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use fret_core::case::Case;
-use fret_core::history::{CYCLE_COLUMNS, Column, CycleRecord, STEP_COLUMNS, StepRecord, Value};
+use fret_core::history::{CYCLE_COLUMNS, Column, CycleRecord, Drive, STEP_COLUMNS, StepRecord, Value};
 use fret_core::units::Units;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
@@ -28,7 +28,7 @@ impl Lines {
     /// The head, with units where the case declares some.
     fn head(self, case: &Case) -> String {
         fn names<R>(columns: &[Column<R>], case: &Case) -> String {
-            let head = |column: &Column<R>| case.heading(column.name, column.unit);
+            let head = |column: &Column<R>| case.heading(column.name, column.unit_driven(Drive::of(case)));
             columns.iter().map(head).collect::<Vec<_>>().join(",") + "\n"
         }
         match self {
@@ -204,7 +204,7 @@ mod tests {
 
     #[test]
     fn a_cycle_reads_back_as_it_was() {
-        use fret_core::history::{CycleRegime, Drive};
+        use fret_core::history::CycleRegime;
         let one = CycleRecord {
             stage: 1,
             cycle: 12,

@@ -4,14 +4,14 @@ use fret_core::run::plausibility;
 use serde_json::json;
 
 use crate::arguments::PlannedArguments;
-use crate::commands::plan::{cells, cells_in_contact_radius, expected_contact, stages, warnings};
+use crate::commands::plan::{cells, cells_in_contact_radius, expected_contact, left_out, stages, warnings};
 use crate::failure::Failure;
 use crate::figures::counted;
 use crate::terminal::Answer;
 use fret_results::{CaseFile, planned_from};
 
 /// Judges a case.
-pub fn check(PlannedArguments { case, from }: &PlannedArguments) -> Result<Answer, Failure> {
+pub fn check(PlannedArguments { case, from, manner }: &PlannedArguments) -> Result<Answer, Failure> {
     let case_file = CaseFile::asked(case)?;
     let plan = planned_from(&case_file, from.as_deref())?;
     let record = json!({
@@ -34,5 +34,9 @@ pub fn check(PlannedArguments { case, from }: &PlannedArguments) -> Result<Answe
         stages(&plan),
         warnings,
     );
-    Ok(Answer::new(record, text, false))
+    manner.step(|| left_out(&plan));
+    if let Some(path) = &manner.out {
+        manner.write(path, format!("{record:#}\n").as_bytes())?;
+    }
+    Ok(Answer::new(record, text))
 }

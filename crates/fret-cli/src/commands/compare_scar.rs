@@ -4,7 +4,6 @@
 //! `scar.svg`.
 
 use std::fmt::Write as _;
-use std::path::Path;
 
 use fret_core::scar::{Asked, Comparison, Line, Pair, compare, read};
 use ndarray::Array2;
@@ -18,10 +17,10 @@ use crate::drawing::scale::Label;
 use crate::failure::Failure;
 use crate::figures::{figure, figure_in, indented};
 use crate::identify::name_of;
+use crate::manner::place_of_answer;
 use crate::table::{Cell, Columns};
 use crate::terminal::Answer;
 use fret_results::Results;
-use fret_results::{folder_below, write_whole};
 
 /// Fields that hold a wear depth: of each body where they move against each other, or of both together.
 const OF_BOTH: &str = "worn_depth";
@@ -44,14 +43,15 @@ pub fn compare_scar(arguments: &CompareScarArguments) -> Result<Answer, Failure>
     }
     let found = compare(&worn.section(&run, axis), run.grid().spacing()[axis], measured)
         .map_err(|refused| Failure::Call(refused.what, refused.help))?;
-    let place = folder_below(&arguments.folder, Path::new("scar"))?;
+    let manner = &arguments.manner;
+    let place = place_of_answer(manner, &arguments.folder, "scar", "scar.json")?;
     let answer = BesideMeasured { run: &run, worn: &worn, along: &arguments.along, found: &found };
     let record = answer.record();
-    write_whole(&place.join("scar.json"), format!("{record:#}\n").as_bytes())?;
-    write_whole(&place.join("scar.csv"), answer.csv().as_bytes())?;
-    write_whole(&place.join("scar.svg"), answer.picture().as_bytes())?;
+    manner.write(&place.join("scar.json"), format!("{record:#}\n").as_bytes())?;
+    manner.write(&place.join("scar.csv"), answer.csv().as_bytes())?;
+    manner.write(&place.join("scar.svg"), answer.picture().as_bytes())?;
     let text = format!("{}\nwritten to {}", answer.text(), place.display());
-    Ok(Answer::new(record, text, arguments.quiet))
+    Ok(Answer::new(record, text))
 }
 
 /// The last kept wear depth of a run.

@@ -36,13 +36,13 @@ pub fn explain(name: Option<&str>) -> Result<Answer, Failure> {
     let text = format!(
         "{name}\n\n  what      {quantity}\n  bound     {side} {bound}\n  meaning   {consequence}\n  to do     {help}\n  manual    {PAGE}"
     );
-    Ok(Answer::new(json!(Explained { row, page: PAGE }), text, false))
+    Ok(Answer::new(json!(Explained { row, page: PAGE }), text))
 }
 
 fn list() -> Answer {
     let lines = ROWS.map(|Row { name, quantity, .. }| format!("\n  {name:<35}{quantity}"));
     let text = format!("warnings, `fret explain NAME` tells more:{}", lines.concat());
-    Answer::new(json!({ "warnings": ROWS.map(|row| Explained { row, page: PAGE }) }), text, false)
+    Answer::new(json!({ "warnings": ROWS.map(|row| Explained { row, page: PAGE }) }), text)
 }
 
 /// A warning with its place in the manual.

@@ -25,7 +25,7 @@ pub fn export(arguments: &ExportArguments) -> Result<Answer, Failure> {
     ];
     let asked: Vec<(&str, Writing)> =
         forms.into_iter().filter(|(asked, _, _)| *asked).map(|(_, name, write)| (name, write)).collect();
-    if arguments.out.is_some() && asked.len() > 1 {
+    if arguments.manner.out.is_some() && asked.len() > 1 {
         return Err(Failure::Call(
             "--out names one place, and several forms are asked for".to_owned(),
             "ask for one form at a time, or leave --out away".to_owned(),
@@ -34,9 +34,12 @@ pub fn export(arguments: &ExportArguments) -> Result<Answer, Failure> {
     let results = Results::read(&arguments.results)?;
     let mut files = Vec::new();
     for (name, write) in asked {
-        let path = arguments.out.clone().unwrap_or_else(|| arguments.results.join(name));
+        let path = arguments.manner.out.clone().unwrap_or_else(|| arguments.results.join(name));
         fits(&path, name == NPZ)?;
         files.extend(write(&results, &path)?);
+    }
+    for file in &files {
+        arguments.manner.wrote(file);
     }
     let steps = counted(results.fields.steps.len(), "kept increment");
     let record = json!({
@@ -53,7 +56,7 @@ pub fn export(arguments: &ExportArguments) -> Result<Answer, Failure> {
     };
     let rows = counted(results.table.rows(), "increment");
     let unfinished = results.unfinished().map_or(String::new(), |why| format!("\n{why}"));
-    Ok(Answer::new(record, format!("{first}{more}: {rows} of history, {steps}{unfinished}"), false))
+    Ok(Answer::new(record, format!("{first}{more}: {rows} of history, {steps}{unfinished}")))
 }
 
 /// Refuses a place that holds something an export would not have written.

@@ -24,10 +24,10 @@ use crate::export::npz;
 use crate::failure::Failure;
 use crate::figures::{duration, figure_in};
 use crate::interrupt;
+use crate::manner::{Manner, place_of_answer};
 use crate::terminal::Answer;
 use fret_results::CaseFile;
 use fret_results::Results;
-use fret_results::{folder_below, write_whole};
 
 /// Computes temperatures and resistances for a result folder.
 pub fn heat(arguments: &HeatArguments) -> Result<Answer, Failure> {
@@ -44,12 +44,12 @@ pub fn heat(arguments: &HeatArguments) -> Result<Answer, Failure> {
                 .to_owned(),
         ));
     }
-    let pool = arguments.manner.threads.pool()?;
+    let pool = arguments.threads.pool()?;
     let every = arguments.every.map(|every| every as usize);
-    let Some((record, text)) = pool.install(|| computed(folder, &run, every))? else {
+    let Some((record, text)) = pool.install(|| computed(folder, &run, every, &arguments.manner))? else {
         return Err(without_answer(folder, &run));
     };
-    Ok(Answer::new(json!(record), text, arguments.manner.quiet))
+    Ok(Answer::new(json!(record), text))
 }
 
 /// Why there is nothing to tell: no temperature is asked for, and no resistance is one of both bodies.
@@ -82,7 +82,7 @@ pub fn answered(folder: &Path) -> Result<Option<(HeatRecord, String)>, Failure> 
     let has_none = run.case().conduction.is_none()
         || run.grid().dimension() == Dimension::Line
         || run.fields.reached.is_empty();
-    if has_none { Ok(None) } else { computed(folder, &run, None) }
+    if has_none { Ok(None) } else { computed(folder, &run, None, &Manner::SILENT) }
 }
 
 fn of([lower, upper]: &[Option<Conductor>; 2]) -> [Option<&Conductor>; 2] {
@@ -100,22 +100,25 @@ fn computed(
     folder: &Path,
     run: &Results,
     every: Option<usize>,
+    manner: &Manner,
 ) -> Result<Option<(HeatRecord, String)>, Failure> {
     let started = Instant::now();
     let ([first, last], _) = run.last_cycle();
     memory::check(memory_of_stress(run.grid().len(), last + 1 - first))?;
     let rise = match run.case().conduction.frequency {
-        Some(frequency) => Some((frequency, temperature(folder, run, frequency)?)),
+        Some(frequency) => Some((frequency, temperature(folder, run, frequency, manner)?)),
         None => None,
     };
-    let resistance = resistances(folder, run, every)?;
+    let resistance = resistances(folder, run, every, manner)?;
     if rise.is_none() && resistance.is_empty() {
         return Ok(None);
     }
-    let place = folder_below(folder, Path::new("heat"))?;
+    let place = place_of_answer(manner, folder, "heat", "heat.json")?;
     let rise = match rise {
         Some((frequency, (found, cycle, accounted))) => {
-            fields(&place.join("temperature.npz"), run, &found)?;
+            let path = place.join("temperature.npz");
+            fields(&path, run, &found)?;
+            manner.wrote(&path);
             Some(risen(run, &found, (frequency, &cycle, accounted)))
         }
         None => None,
@@ -127,7 +130,7 @@ fn computed(
         resistance,
         wall_s: started.elapsed().as_secs_f64(),
     };
-    write_whole(&place.join("heat.json"), format!("{:#}\n", json!(record)).as_bytes())?;
+    manner.write(&place.join("heat.json"), format!("{:#}\n", json!(record)).as_bytes())?;
     let mut table = record.unfinished.as_ref().map_or(String::new(), |why| format!("{why}\n"));
     for [name, value, of] in record.lines(|value, kind| figure_in(run.units(), value, kind)) {
         let _ = if of.is_empty() {
@@ -145,6 +148,7 @@ fn temperature(
     folder: &Path,
     run: &Results,
     frequency: f64,
+    manner: &Manner,
 ) -> Result<(SurfaceTemperature, CycleRecord, f64), Failure> {
     let shown = folder.display();
     let refuse = |what: String| {
@@ -184,6 +188,9 @@ fn temperature(
         slip_of_cycle(increments, cycle.dissipated_energy, run.grid().cell_area()).ok_or_else(|| {
             refuse("the kept fields of the last cycle give another dissipated energy than the run".to_owned())
         })?;
+    manner.step(|| {
+        format!("temperature over increments {} to {}", cycle.first_increment, cycle.last_increment)
+    });
     let found = surface_temperature(
         of(&run.case().conduction.thermal),
         run.grid(),
@@ -263,7 +270,12 @@ fn fields(path: &Path, run: &Results, found: &SurfaceTemperature) -> Result<(), 
 }
 
 /// Resistances of the kept increments that are asked for; none where a body does not conduct.
-fn resistances(folder: &Path, run: &Results, every: Option<usize>) -> Result<Vec<ResistanceRecord>, Failure> {
+fn resistances(
+    folder: &Path,
+    run: &Results,
+    every: Option<usize>,
+    manner: &Manner,
+) -> Result<Vec<ResistanceRecord>, Failure> {
     let conduction = &run.case().conduction;
     let [thermal, electrical] = [&conduction.thermal, &conduction.electrical].map(both);
     let kept = &run.fields.reached;
@@ -280,6 +292,7 @@ fn resistances(folder: &Path, run: &Results, every: Option<usize>) -> Result<Vec
             return Err(Failure::Interrupted(help));
         }
         let Some(pressure) = run.field("pressure", increment)? else { continue };
+        manner.step(|| format!("contact resistance of increment {increment}"));
         let contact = pressure.mapv(|pressure| pressure > 0.0);
         let found = |conductors: [Option<&Conductor>; 2]| match contact_resistance(
             conductors,

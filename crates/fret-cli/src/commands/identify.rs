@@ -9,11 +9,12 @@ use fret_core::measured::Asked;
 use super::columns_asked::pairs;
 use crate::arguments::IdentifyArguments;
 use crate::failure::Failure;
+use crate::figures::counted;
 use crate::identify::indentation::{IndentationAsked, indentation};
 use crate::identify::{Identified, Request, identify as identified, name_of};
 use crate::terminal::Answer;
 use fret_results::CaseFile;
-use fret_results::{folder_for_answers, stem, write_whole};
+use fret_results::{folder_for_answers, stem};
 
 /// The answer, which marks its folder.
 const IDENTIFIED: &str = "identified.json";
@@ -42,21 +43,23 @@ pub fn identify(arguments: &IdentifyArguments) -> Result<Answer, Failure> {
         Question::Loops(Request { log, key: one_key(&arguments.fit)? })
     };
     let case_file = CaseFile::read(&arguments.case)?;
-    let pool = arguments.manner.threads.pool()?;
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.log));
+    let pool = arguments.threads.pool()?;
+    let folder = arguments.manner.out.clone().unwrap_or_else(|| default_folder(&arguments.log));
     let folder = folder_for_answers(&folder, &[IDENTIFIED], "an identification")?;
+    arguments.manner.step(|| format!("read: {name}, {}", counted(bytes.len(), "byte")));
     let log = (name.as_str(), &bytes[..]);
     let Identified { record, text, page, tables } = pool.install(|| match question {
         Question::Loops(request) => identified(log, &case_file, &request),
         Question::Indentation(request) => indentation(log, &case_file, &request),
     })?;
-    write_whole(&folder.join(IDENTIFIED), format!("{record:#}\n").as_bytes())?;
-    write_whole(&folder.join("identified.html"), page.as_bytes())?;
+    let manner = &arguments.manner;
+    manner.write(&folder.join(IDENTIFIED), format!("{record:#}\n").as_bytes())?;
+    manner.write(&folder.join("identified.html"), page.as_bytes())?;
     for (name, table) in &tables {
-        write_whole(&folder.join(name), table.as_bytes())?;
+        manner.write(&folder.join(name), table.as_bytes())?;
     }
     let text = format!("{text}\nwritten to {}", folder.display());
-    Ok(Answer::new(record, text, arguments.manner.quiet))
+    Ok(Answer::new(record, text))
 }
 
 /// What a log is asked.

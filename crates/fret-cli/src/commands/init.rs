@@ -6,27 +6,31 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
+use crate::arguments::InitArguments;
 use crate::failure::{Failure, Unwritten};
 use crate::templates::{TEMPLATES, Template};
 use crate::terminal::Answer;
 
 /// Writes a template, or tells which there are.
-pub fn init(name: Option<&str>, out: Option<&Path>) -> Result<Answer, Failure> {
-    let Some(name) = name else { return Ok(list()) };
+pub fn init(InitArguments { template, manner }: &InitArguments) -> Result<Answer, Failure> {
+    let (Some(name), out) = (template, manner.out.as_deref()) else { return Ok(list()) };
     if out == Some(Path::new("-")) {
         let help = "name a file; a template may have other files beside it";
         return Err(Failure::Call("a case to begin with is written to a file".to_owned(), help.to_owned()));
     }
-    let template = TEMPLATES.iter().find(|template| template.name == name).ok_or_else(|| {
+    let template = TEMPLATES.iter().find(|template| template.name == *name).ok_or_else(|| {
         let names: Vec<&str> = TEMPLATES.iter().map(|template| template.name).collect();
         Failure::Call(format!("no template is called {name:?}"), format!("there are: {}", names.join(", ")))
     })?;
     let path = out.map_or_else(|| PathBuf::from(format!("{name}.toml")), Path::to_owned);
     let written = write(template, &path)?;
+    for path in &written {
+        manner.wrote(Path::new(path));
+    }
     let record = json!({ "status": "written", "template": name, "files": written });
     let path = in_a_call(&path);
     let next = format!("next: fret check {path}; fret plan {path}; fret run {path}");
-    Ok(Answer::new(record, format!("written: {}\n{next}", written.join(", ")), false))
+    Ok(Answer::new(record, format!("written: {}\n{next}", written.join(", "))))
 }
 
 /// A path as a call of the command has it.
@@ -39,7 +43,7 @@ fn list() -> Answer {
     let all = TEMPLATES.iter().map(|template| json!({ "name": template.name, "about": template.about }));
     let lines = TEMPLATES.iter().map(|template| format!("\n  {:<14}{}", template.name, template.about));
     let text = "cases to begin with, `fret init NAME` writes one:".to_owned() + &lines.collect::<String>();
-    Answer::new(json!({ "templates": all.collect::<Vec<_>>() }), text, false)
+    Answer::new(json!({ "templates": all.collect::<Vec<_>>() }), text)
 }
 
 /// Writes the case and what it names beside it; nothing that exists is replaced.

@@ -35,7 +35,7 @@ struct Record<'a> {
 }
 
 /// Plans a case and tells the plan.
-pub fn plan(PlannedArguments { case, from }: &PlannedArguments) -> Result<Answer, Failure> {
+pub fn plan(PlannedArguments { case, from, manner }: &PlannedArguments) -> Result<Answer, Failure> {
     let case_file = CaseFile::asked(case)?;
     let plan = planned_from(&case_file, from.as_deref())?;
     let lacking = memory::check(plan.memory_bytes).err();
@@ -45,7 +45,7 @@ pub fn plan(PlannedArguments { case, from }: &PlannedArguments) -> Result<Answer
         Some(_) => None,
     };
     let text = table((&case_file.title(&plan.case), &plan), expected.as_ref(), lacking.as_ref());
-    let record = Record {
+    let record = json!(Record {
         status: "planned",
         cells_in_contact_radius: cells_in_contact_radius(&plan),
         increments_expected: expected.map(|expected| expected.increments),
@@ -54,8 +54,11 @@ pub fn plan(PlannedArguments { case, from }: &PlannedArguments) -> Result<Answer
         memory_lacking: lacking.map(|error| format!("this {error}")),
         warnings: plausibility::of_plan(&plan),
         plan: &plan,
-    };
-    Ok(Answer::new(json!(record), text, false))
+    });
+    if let Some(path) = &manner.out {
+        manner.write(path, format!("{record:#}\n").as_bytes())?;
+    }
+    Ok(Answer::new(record, text))
 }
 
 fn table(

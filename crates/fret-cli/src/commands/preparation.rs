@@ -44,7 +44,8 @@ impl Wanted {
     /// What the arguments of the command ask for.
     pub fn by(arguments: &RunArguments) -> Result<Self, Failure> {
         let case_file = CaseFile::asked(&arguments.case)?;
-        let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(case_file.stem()));
+        let folder =
+            arguments.manner.out.clone().unwrap_or_else(|| Path::new("results").join(case_file.stem()));
         Ok(Self {
             folder,
             case_file,
@@ -55,9 +56,9 @@ impl Wanted {
                 LeavingOut::None => LeaveOut::NONE,
             },
             estimate_error: arguments.estimate_error,
-            threads: arguments.manner.threads.number,
+            threads: arguments.threads.number,
             quiet: arguments.manner.quiet,
-            verbose: arguments.verbose,
+            verbose: arguments.manner.verbose,
         })
     }
 

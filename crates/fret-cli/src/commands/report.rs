@@ -4,12 +4,12 @@ use std::path::Path;
 
 use serde_json::json;
 
+use crate::arguments::ReportArguments;
 use crate::failure::Failure;
 use crate::report::{page, study, sweep};
 use crate::sweep::RECORD as SWEEP;
 use crate::terminal::Answer;
 use fret_results::Results;
-use fret_results::write_whole;
 
 /// A page with what is told of it.
 struct Page {
@@ -47,9 +47,9 @@ fn page_of(folder: &Path) -> Result<Page, Failure> {
 }
 
 /// Writes the page and tells where it is.
-pub fn report(folder: &Path, out: Option<&Path>) -> Result<Answer, Failure> {
+pub fn report(ReportArguments { results: folder, manner }: &ReportArguments) -> Result<Answer, Failure> {
     let Page { text, counted: (what, count), unfinished } = page_of(folder)?;
-    let path = out.map_or_else(|| folder.join("report.html"), Path::to_owned);
+    let path = manner.out.clone().unwrap_or_else(|| folder.join("report.html"));
     let is_page = path.extension().is_some_and(|extension| extension == "html" || extension == "htm");
     if path.is_dir() || (path.exists() && !is_page) {
         let found =
@@ -59,9 +59,9 @@ pub fn report(folder: &Path, out: Option<&Path>) -> Result<Answer, Failure> {
             "choose another place for the page with --out FILE".to_owned(),
         ));
     }
-    write_whole(&path, text.as_bytes())?;
+    manner.write(&path, text.as_bytes())?;
     let shown = path.display().to_string();
     let record = json!({ "status": "reported", "file": shown, what: count, "unfinished": unfinished });
     let text = [shown].into_iter().chain(unfinished).collect::<Vec<_>>().join("\n");
-    Ok(Answer::new(record, text, false))
+    Ok(Answer::new(record, text))
 }

@@ -13,11 +13,15 @@ use serde_json::{Map, Value, json};
 use crate::arguments::SensitivityArguments;
 use crate::failure::Failure;
 use crate::figures::figure;
-use crate::interrupt::{self, Listener};
+use crate::interrupt;
+use crate::manner::Steps;
 use crate::scatter::Scatter;
+use crate::table::Columns;
 use crate::terminal::Answer;
-use fret_results::CaseFile;
+use fret_results::{CaseFile, folder_for_answers};
 
+/// The answer, which marks its folder.
+const RECORD: &str = "sensitivity.json";
 /// Letters of a bar for a logarithmic derivative of one.
 const UNIT_BAR: f64 = 10.0;
 /// Letters of a bar at the most.
@@ -32,14 +36,21 @@ pub fn sensitivity(arguments: &SensitivityArguments) -> Result<Answer, Failure> 
     let scattered = arguments.scatter.iter().map(|scatter| scatter.path.clone());
     let by = if arguments.by.is_empty() { scattered.collect() } else { arguments.by.clone() };
     let request = Request { of, by, direction: None };
-    let found = pool.install(|| gradient(&plan, &request, &mut Listener)).map_err(refused)?;
+    let found = pool.install(|| gradient(&plan, &request, &mut Steps(&arguments.manner))).map_err(refused)?;
     let spreads = spreads(&found, &arguments.scatter)?;
     let mut record = record(&found);
     if !spreads.is_empty() {
         record["first_order"] = spreads.iter().map(Spread::entry).collect();
     }
-    let parts = std::iter::once(table(&found)).chain(spreads.iter().map(Spread::part));
-    Ok(Answer::new(record, parts.collect::<Vec<_>>().join("\n\n"), false))
+    let mut written = None;
+    if let Some(folder) = &arguments.manner.out {
+        let folder = folder_for_answers(folder, &[RECORD], "a sensitivity")?;
+        arguments.manner.write(&folder.join(RECORD), format!("{record:#}\n").as_bytes())?;
+        arguments.manner.write(&folder.join("sensitivity.csv"), csv(&found).as_bytes())?;
+        written = Some(format!("written to {}", folder.display()));
+    }
+    let parts = std::iter::once(table(&found)).chain(spreads.iter().map(Spread::part)).chain(written);
+    Ok(Answer::new(record, parts.collect::<Vec<_>>().join("\n\n")))
 }
 
 /// How much a result scatters, to first order.
@@ -171,6 +182,27 @@ fn record(found: &Sensitivities) -> Value {
         "near_a_change_of_state": near,
         "direction": direction,
     })
+}
+
+/// The answer as a file: a row for each result and number.
+fn csv(found: &Sensitivities) -> String {
+    let rows = found
+        .gradients
+        .iter()
+        .flat_map(|gradient| (0..gradient.by.len()).map(move |place| (gradient, place)));
+    Columns::<(&Gradient, usize)>::new()
+        .column("result", "", |(gradient, _)| gradient.of.clone())
+        .column("value", "", |(gradient, _)| gradient.value)
+        .column("by", "", |(_, place)| found.parameters[*place].path().to_owned())
+        .column("number", "", |(_, place)| found.parameters[*place].value())
+        .column("derivative", "", |(gradient, place)| gradient.by[*place])
+        .column("logarithmic_derivative", "", |(gradient, place)| {
+            logarithmic(gradient.by[*place], gradient.value, found.parameters[*place].value())
+        })
+        .column("derivative_on_the_other_side", "", |(gradient, place)| {
+            gradient.on_the_other_side.as_ref().map(|by| by[*place])
+        })
+        .csv(None, rows)
 }
 
 /// The answer for a person: one table a result, its parameters by the size of their effect.

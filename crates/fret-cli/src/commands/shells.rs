@@ -39,7 +39,7 @@ pub fn pages(folder: &Path) -> Result<Answer, Failure> {
         written.push(path.display().to_string());
     }
     let text = format!("{} pages in {}", written.len(), folder.display());
-    Ok(Answer::new(json!({ "status": "written", "files": written }), text, false))
+    Ok(Answer::new(json!({ "status": "written", "files": written }), text))
 }
 
 fn page(command: clap::Command, title: &str, path: &Path) -> Result<Vec<u8>, Failure> {

@@ -21,9 +21,9 @@ use crate::arguments::StressArguments;
 use crate::export::volume::{Field, Volume};
 use crate::failure::{Failure, Unwritten};
 use crate::interrupt;
+use crate::manner::{Manner, place_of_answer};
 use crate::terminal::Answer;
 use fret_results::Results;
-use fret_results::folder_below;
 
 /// Fields of a volume: stresses.
 const STRESSES: [Field; 8] = [
@@ -50,9 +50,9 @@ pub fn stress(arguments: &StressArguments) -> Result<Answer, Failure> {
         return Err(Failure::Call(format!("{}: {why}", arguments.folder.display()), way_out));
     }
     let request = requested(arguments, &run);
-    let pool = arguments.manner.threads.pool()?;
-    let (record, text) = pool.install(|| computed(&arguments.folder, &run, &request))?;
-    Ok(Answer::new(json!(record), text, arguments.manner.quiet))
+    let pool = arguments.threads.pool()?;
+    let (record, text) = pool.install(|| computed(&arguments.folder, &run, &request, &arguments.manner))?;
+    Ok(Answer::new(json!(record), text))
 }
 
 /// What the call asks for, or else the case.
@@ -84,6 +84,7 @@ fn computed(
     folder: &Path,
     run: &Results,
     request: &StressRequest,
+    manner: &Manner,
 ) -> Result<(StressRecord, String), Failure> {
     let started = Instant::now();
     let Body::Elastic(half_space) = request.body.of(&run.case().bodies) else {
@@ -99,7 +100,7 @@ fn computed(
             .map_err(|error| Failure::Call(error.to_string(), "or --auto".to_owned()))?,
         None => automatic_depths(half_space, reach(run, &surfaces), AUTOMATIC),
     };
-    let place = folder_below(folder, Path::new("stress"))?;
+    let place = place_of_answer(manner, folder, "stress", "stress.json")?;
     let constants = run.fatigue_constants(request);
     let mut tables = StressTables::new(run, request, (half_space, &constants), &points, &surfaces);
     // where one axis alone has no end, they need a datum
@@ -117,6 +118,9 @@ fn computed(
     survey(half_space, run.grid(), run.case().periodic, &points, &surfaces, |point, surface, field| {
         if interrupt::is_asked() {
             return false;
+        }
+        if surface == 0 {
+            manner.step(|| format!("depth {} of {}", point + 1, points.len()));
         }
         tables.look(point, surface, field);
         if let (Some(volume), true) = (&mut volume, surface + 1 == surfaces.len())
@@ -143,7 +147,7 @@ fn computed(
         }
         volume.close()?;
     }
-    tables.written(&place, started.elapsed().as_secs_f64())
+    tables.written((&place, manner), started.elapsed().as_secs_f64())
 }
 
 /// Displacements under a surface by its tractions, into a volume.
@@ -179,5 +183,5 @@ fn fill(volume: &mut Volume, point: usize, field: &StressField) -> Result<(), Un
 pub fn answered(folder: &Path) -> Result<Option<(StressRecord, String)>, Failure> {
     let run = Results::read(folder)?;
     let Some(request) = run.case().stress.clone() else { return Ok(None) };
-    computed(folder, &run, &request).map(Some)
+    computed(folder, &run, &request, &Manner::SILENT).map(Some)
 }

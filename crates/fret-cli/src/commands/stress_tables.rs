@@ -16,9 +16,9 @@ use crate::commands::stress_kinds::{kind_of_stress, stress_called};
 use crate::drawing::section::Section;
 use crate::failure::Failure;
 use crate::figures::{counted, duration, indented};
+use crate::manner::Manner;
 use crate::table::Columns;
 use fret_results::Results;
-use fret_results::write_whole;
 
 /// More sections than this are not drawn.
 const MOST_SECTIONS: usize = 12;
@@ -106,7 +106,11 @@ impl<'a> StressTables<'a> {
         grid.centre(axis, found.cell[axis]) + found.off[axis] * grid.spacing()[axis]
     }
 
-    pub fn written(mut self, place: &Path, wall_s: f64) -> Result<(StressRecord, String), Failure> {
+    pub fn written(
+        mut self,
+        (place, manner): (&Path, &Manner),
+        wall_s: f64,
+    ) -> Result<(StressRecord, String), Failure> {
         let largest = self.largest.iter().map(|found| LargestRecord {
             measure: found.measure.name().to_owned(),
             value: found.value,
@@ -132,7 +136,7 @@ impl<'a> StressTables<'a> {
             coating: fatigue.coating,
             wall_s,
         };
-        write_whole(&place.join("stress.json"), format!("{:#}\n", json!(record)).as_bytes())?;
+        manner.write(&place.join("stress.json"), format!("{:#}\n", json!(record)).as_bytes())?;
         let mut columns = Columns::<AtDepth>::new()
             .column("increment", "", |(increment, ..)| *increment)
             .column("depth", "length", |(_, point, _)| point.depth)
@@ -142,11 +146,11 @@ impl<'a> StressTables<'a> {
             columns = columns.column(measure.name(), kind, move |(_, _, values)| values[place]);
         }
         let by_depth = columns.csv(self.run.units(), &self.by_depth);
-        write_whole(&place.join("depths.csv"), by_depth.as_bytes())?;
+        manner.write(&place.join("depths.csv"), by_depth.as_bytes())?;
         for (name, content) in &fatigue.files {
-            write_whole(&place.join(name), content.as_bytes())?;
+            manner.write(&place.join(name), content.as_bytes())?;
         }
-        self.draw(place, &self.run.grid().centres(0).to_vec(), &fatigue.pictures)?;
+        self.draw((place, manner), &self.run.grid().centres(0).to_vec(), &fatigue.pictures)?;
         let table = self.table(&record, place, &fatigue.table);
         Ok((record, table))
     }
@@ -163,7 +167,7 @@ impl<'a> StressTables<'a> {
 
     /// Sections of the increments (of many: of the last and of the one with the largest von Mises stress), and of what fatigue
     /// shows.
-    fn draw(&self, place: &Path, x: &[f64], fatigue: &[Picture]) -> Result<(), Failure> {
+    fn draw(&self, (place, manner): (&Path, &Manner), x: &[f64], fatigue: &[Picture]) -> Result<(), Failure> {
         let depths: Vec<f64> = self.points.iter().map(|point| point.depth).collect();
         if !depths.windows(2).all(|pair| pair[0] <= pair[1]) || depths.first() == depths.last() {
             return Ok(()); // no section without rising depths
@@ -186,12 +190,12 @@ impl<'a> StressTables<'a> {
             let subject = format!("section at y = 0, increment {increment}, {body} body");
             let quantity = ("von Mises stress", "pressure");
             let svg = section(&subject, quantity, &self.sections[index], Some([0.0, high]))?;
-            write_whole(&place.join(format!("von_mises-{increment:05}.svg")), svg.as_bytes())?;
+            manner.write(&place.join(format!("von_mises-{increment:05}.svg")), svg.as_bytes())?;
         }
         for (name, values) in fatigue {
             let subject = format!("section at y = 0, last cycle, {body} body");
             let svg = section(&subject, (&stress_called(name), kind_of_stress(name)), values, None)?;
-            write_whole(&place.join(format!("{name}.svg")), svg.as_bytes())?;
+            manner.write(&place.join(format!("{name}.svg")), svg.as_bytes())?;
         }
         Ok(())
     }

@@ -15,15 +15,16 @@ use crate::arguments::{StudyArguments, StudyRequest};
 use crate::defect;
 use crate::failure::Failure;
 use crate::figures::{counted, duration};
-use crate::interrupt::{self, Listener};
+use crate::interrupt;
+use crate::manner::Steps;
 use crate::report::study::STUDY;
 use crate::study::levels::{LEVELS, Levels};
 use crate::study::record::StudyRecord;
 use crate::study::table::ErrorColumn;
 use crate::study::{picture, reference, table, words};
-use crate::terminal::{self, Answer};
+use crate::terminal::Answer;
 use fret_results::CaseFile;
-use fret_results::{folder_for_answers, write_whole};
+use fret_results::folder_for_answers;
 
 /// Accuracies a choice is told for.
 const ACCURACIES: [f64; 3] = [1e-2, 1e-3, 1e-4];
@@ -38,7 +39,7 @@ pub fn study(arguments: &StudyArguments) -> Result<Answer, Failure> {
     let plan = case_file.planned()?;
     let question = Question::new(&arguments.request, &plan)?;
     let pool = arguments.threads.pool()?;
-    let folder = arguments.out.clone().unwrap_or_else(|| {
+    let folder = arguments.manner.out.clone().unwrap_or_else(|| {
         let mut name = case_file.stem().into_os_string();
         name.push("-study");
         Path::new("results").join(name)
@@ -46,21 +47,19 @@ pub fn study(arguments: &StudyArguments) -> Result<Answer, Failure> {
     let folder = folder_for_answers(&folder, &[STUDY, LEVELS], "a study")?;
     interrupt::listen();
     let kept = Levels::below(&folder)?;
-    let say = |text: &str| {
-        if !arguments.quiet {
-            terminal::say(text);
-        }
-    };
+    let manner = &arguments.manner;
+    let say = |text: &str| manner.say(text);
     let title = case_file.title(&plan.case);
-    let studied = pool.install(|| studied((&title, &plan), question, Some(&kept), &say, &mut Listener))?;
+    let studied =
+        pool.install(|| studied((&title, &plan), question, Some(&kept), &say, &mut Steps(manner)))?;
     let Studied { record, study, lines, measured } = &studied;
-    write_whole(&folder.join("study.csv"), table::csv(&record.lines).as_bytes())?;
-    write_whole(
+    manner.write(&folder.join("study.csv"), table::csv(&record.lines).as_bytes())?;
+    manner.write(
         &folder.join("study.svg"),
         picture::picture(&title, plan.case.dimension(), study, lines).as_bytes(),
     )?;
     let answer = json!(record);
-    write_whole(&folder.join(STUDY), format!("{answer:#}\n").as_bytes())?;
+    manner.write(&folder.join(STUDY), format!("{answer:#}\n").as_bytes())?;
     kept.remove();
     let text = format!(
         "{title}\n{measured}\n\n{}\n\n{}\n\nresults    {}",
@@ -68,7 +67,7 @@ pub fn study(arguments: &StudyArguments) -> Result<Answer, Failure> {
         record.choice,
         folder.display()
     );
-    Ok(Answer::new(answer, text, false))
+    Ok(Answer::new(answer, text))
 }
 
 /// What is to be studied: resolutions that fit into memory, and what they are compared with.

@@ -19,6 +19,7 @@ use crate::arguments::SweepArguments;
 use crate::failure::{Failure, Told};
 use crate::figures::{counted, duration};
 use crate::interrupt::{self, Keeper, Listener};
+use crate::manner::Manner;
 use crate::sweep::{Answer, Besides, Planned, Point, Question, SweepFolder, asks_for_more};
 use crate::terminal;
 use crate::threads;
@@ -30,13 +31,13 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
     let question = Question::read(&arguments.sweep)?;
     let origin = arguments.from.as_deref().map(Origin::read).transpose()?;
     let own = || Path::new("results").join(stem(&arguments.sweep, "sweep"));
-    let path = arguments.out.clone().unwrap_or_else(own);
+    let path = arguments.manner.out.clone().unwrap_or_else(own);
     let folder = SweepFolder::open(&path, &question.text, origin.as_ref())?;
     folder.list(&question)?;
     interrupt::listen();
     let threads = threads::asked(arguments.threads);
     let known: Vec<Option<Answer>> = question.points.iter().map(|point| folder.finished(point)).collect();
-    let board = Board::new(&question, origin, known, arguments.quiet);
+    let board = Board::new(&question, origin, known, &arguments.manner);
     board.announce(threads);
     let failure = board.work(&folder, threads);
     let summary = folder.summarise(&question, &board.answers());
@@ -44,6 +45,7 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
         return Err(failure.into());
     }
     let summary = summary?;
+    arguments.manner.wrote(&summary);
     let spread = folder.spread(&question, &board.answers())?;
     let counts = board.counts();
     if as_json {
@@ -57,7 +59,7 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
                 "solved_before": board.solved_before,
                 "summary": summary.display().to_string(),
         }))?;
-    } else if !arguments.quiet {
+    } else if !arguments.manner.quiet {
         if let Some(table) = spread {
             terminal::answer(&format!("{table}\n"))?;
         }
@@ -126,7 +128,7 @@ struct Board<'a> {
     before: usize,
     /// Those of them that are solved.
     solved_before: usize,
-    quiet: bool,
+    manner: &'a Manner,
     started: Instant,
 }
 
@@ -142,7 +144,12 @@ impl Drop for AtWork<'_> {
 }
 
 impl<'a> Board<'a> {
-    fn new(question: &'a Question, origin: Option<Origin>, known: Vec<Option<Answer>>, quiet: bool) -> Self {
+    fn new(
+        question: &'a Question,
+        origin: Option<Origin>,
+        known: Vec<Option<Answer>>,
+        manner: &'a Manner,
+    ) -> Self {
         let mut open = Vec::new();
         let mut equal = HashMap::new();
         let mut first_of = HashMap::new();
@@ -168,13 +175,13 @@ impl<'a> Board<'a> {
             ended: Mutex::new(None),
             at_work: Mutex::new(0),
             freed: Condvar::new(),
-            quiet,
+            manner,
             started: Instant::now(),
         }
     }
 
     fn announce(&self, threads: usize) {
-        if !self.quiet {
+        if !self.manner.quiet {
             let found = if self.before > 0 {
                 format!(", {} of them finished before", self.before)
             } else {
@@ -262,6 +269,7 @@ impl<'a> Board<'a> {
                 Err(_) => Answer::unsolved(&Failure::Defect(format!("point {number} ended in a panic"))),
             };
             folder.keep(&self.question.keys, point, &answer)?;
+            self.manner.step(|| format!("written: {}", folder.place(point).display()));
             self.tell(number, answer);
         }
         Ok(())
@@ -332,7 +340,7 @@ impl<'a> Board<'a> {
         }
         answers[number] = Some(answer);
         let done = answers.iter().flatten().count();
-        if self.quiet {
+        if self.manner.quiet {
             return;
         }
         let (all, new) = (answers.len(), done - self.before);

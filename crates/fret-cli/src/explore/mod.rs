@@ -1,6 +1,6 @@
 //! A contact to play with: a page on this machine whose sliders solve the case again while they are dragged.
 //!
-//! From the ground: `sliders` (which numbers of a case can be dragged, and how far), `question` (the case with the numbers of the sliders,
+//! From the ground: `sliders` (which numbers of a case can be dragged, and how far), `written` (its text with other numbers), `question` (the case with the numbers of the sliders,
 //! on a coarse grid), `stress` (the section below the contact), `answer` (what is drawn and told of a solution), `page` (the page itself),
 //! `server` (who is answered, and the newest question first).
 
@@ -10,6 +10,7 @@ mod question;
 mod server;
 mod sliders;
 mod stress;
+mod written;
 
 pub use answer::Solver;
 pub use question::Question;

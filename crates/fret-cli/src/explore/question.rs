@@ -10,6 +10,7 @@ use serde::Deserialize;
 use toml::{Table, Value};
 
 use super::sliders::{Slider, sliders};
+use super::written::with_numbers;
 use crate::failure::Failure;
 use crate::sweep::key::put;
 use fret_results::{Beside, CaseFile};
@@ -44,7 +45,9 @@ pub struct Question {
     path: PathBuf,
     /// Of a case that came from no file: where what it names is found.
     beside: Option<Beside>,
-    /// The case that was opened.
+    /// The case that was opened, as it was written.
+    text: String,
+    /// The same.
     own: Table,
     /// The same as it is solved here.
     coarse: Table,
@@ -107,6 +110,7 @@ impl Question {
             dimension,
             path: file.path.clone(),
             beside: file.beside.clone(),
+            text: file.text.clone(),
             own,
             coarse,
             sliders,
@@ -190,7 +194,7 @@ impl Question {
             Written::Own => {
                 let file = self.file(&self.with(&self.own, values)?);
                 file.planned()?;
-                file.text
+                with_numbers(&self.text, values).unwrap_or(file.text)
             }
         };
         let about = match which {

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::slice;
 
 use fret_core::model::Dimension;
-use fret_core::study::{Kind, Source};
+use fret_core::study::{Convergence, Kind, Source};
 use maud::{Markup, html};
 
 use super::html::{chapter, grid, side_by_side, table};
@@ -60,6 +60,11 @@ fn measured_by(study: &StudyRecord) -> Markup {
             (Some(Source::ClosedForm), Some(form)) => format!("closed form: {form}"),
             (Some(Source::ClosedForm), None) => "closed form".to_owned(),
             (Some(Source::Given), _) => "given".to_owned(),
+            (Some(Source::Limit), _)
+                if study.convergence.get(name) == Some(&Some(Convergence::TwoLevels)) =>
+            {
+                "whole difference of two levels".to_owned()
+            }
             (Some(Source::Limit), _) => "limit".to_owned(),
             (Some(Source::Finest), _) => "finest".to_owned(),
             (None, _) => "–".to_owned(),

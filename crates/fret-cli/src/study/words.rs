@@ -55,6 +55,9 @@ pub fn measured_by(reference: &Reference, shown: &dyn Fn(Quantity) -> bool, dime
         let numbers: Vec<&str> = Quantity::ALL
             .into_iter()
             .filter(|quantity| reference.source(*quantity) == Some(source) && shown(*quantity))
+            .filter(|quantity| {
+                source != Source::Limit || reference.convergence(*quantity) != Convergence::TwoLevels
+            })
             .map(|quantity| name(quantity, dimension))
             .collect();
         (!numbers.is_empty()).then(|| format!("{} compared with {words}", numbers.join(", ")))
@@ -86,8 +89,10 @@ pub fn without_order(
     if let Some(names) = of(Convergence::NotAsymptotic) {
         said.push(format!("{names}: not in the asymptotic range (no order between half and twice the expected one), not extrapolated"));
     }
-    if let Some(names) = of(Convergence::Assumed) {
-        said.push(format!("{names}: extrapolated with the expected order, since two levels show none"));
+    if let Some(names) = of(Convergence::TwoLevels) {
+        said.push(format!(
+            "{names}: two levels cannot show convergence; the whole difference between them is taken for the error of the finer one, twice that for the coarser"
+        ));
     }
     said.join("\n")
 }

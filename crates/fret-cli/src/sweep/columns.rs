@@ -1,7 +1,7 @@
 //! The numbers of a point: the columns of `summary.csv`, and what the page of a sweep draws. Those of the last increment and the last cycle
 //! every sweep has; those of stresses, fatigue, cracks, coatings and heat the sweeps whose cases ask for them.
 
-use fret_core::history::{self, CYCLE_COLUMNS, Column, CycleRecord, STEP_COLUMNS, rolling_columns};
+use fret_core::history::{self, CYCLE_COLUMNS, Column, CycleRecord, Drive, STEP_COLUMNS, rolling_columns};
 use fret_core::subsurface::Measure;
 use fret_core::subsurface::fatigue::Parameter;
 use serde_json::{Value, json};
@@ -63,7 +63,7 @@ const OF_CRACK: [Row<CrackRecord>; 6] = [
     }),
     ("crack_x", "length", |crack| followed(crack).map(|[x, ..]| json!(x))),
     ("crack_y", "length", |crack| followed(crack).map(|[_, y, ..]| json!(y))),
-    ("crack_angle", "", |crack| followed(crack).map(|[_, _, angle, _]| json!(angle))),
+    ("crack_angle", "degrees", |crack| followed(crack).map(|[_, _, angle, _]| json!(angle))),
     ("crack_length", "length", |crack| followed(crack).map(|[.., length]| json!(length))),
     ("crack_cycles", "", |crack| match crack {
         // a crack that does not grow, or stops, is followed without end
@@ -176,9 +176,11 @@ pub fn columns(answers: &[Option<Answer>]) -> Vec<SummaryColumn> {
         Some(of_records(column.name.to_owned(), column.unit, &value))
     };
     columns.extend(END.iter().filter_map(at_end));
+    let cycles = numbers.iter().filter_map(|numbers| (*numbers)?.cycle.as_ref());
+    let drive = Drive::of_all(cycles.map(|cycle| cycle.drive));
     for column in of_cycle() {
         let value = |place: usize| Some(told(column, numbers[place]?.cycle.as_ref()?));
-        columns.push(of_records(format!("cycle_{}", column.name), column.unit, &value));
+        columns.push(of_records(format!("cycle_{}", column.name), column.unit_driven(drive), &value));
     }
     let mut asked = Vec::new();
     for (column, of) in rolling_columns() {

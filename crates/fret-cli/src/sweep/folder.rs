@@ -14,8 +14,9 @@ use serde_json::{Map, Value, json};
 
 use crate::failure::{Failure, Unwritten};
 use crate::sweep::columns::{SummaryColumn, columns};
+use crate::sweep::kinds::kind_of;
 use crate::sweep::record::{PointOfSweep, SweepRecord};
-use crate::sweep::{Answer, Point, Question, Spread};
+use crate::sweep::{Answer, Point, Question, Sampled, Spread};
 use fret_results::Origin;
 use fret_results::{folder_below, resolved_path, write_whole};
 
@@ -100,7 +101,9 @@ impl SweepFolder {
     pub fn summarise(&self, question: &Question, answers: &[Option<Answer>]) -> Result<PathBuf, Unwritten> {
         let setting = Setting::of(question);
         let columns = columns(answers);
-        let head = ["point".to_owned()].into_iter().chain(question.keys.iter().cloned());
+        let head = ["point".to_owned()]
+            .into_iter()
+            .chain(question.keys.iter().map(|key| setting.heading_of_key(key)));
         let head = head
             .chain(["status".to_owned()])
             .chain(columns.iter().map(|column| setting.heading(column)))
@@ -135,10 +138,15 @@ impl SweepFolder {
         let Some(design) = &question.design else { return Ok(None) };
         // Means and quantiles of lives of which some have no bound are none: such a column tells nothing.
         let is_bounded = |column: &SummaryColumn| column.numbers().iter().all(|value| !value.is_infinite());
+        let setting = Setting::of(question);
         let columns: Vec<_> = columns(answers)
             .into_iter()
             .filter(is_bounded)
-            .map(|column| (column.name.clone(), column.numbers()))
+            .map(|column| Sampled {
+                heading: setting.heading(&column),
+                numbers: column.numbers(),
+                name: column.name,
+            })
             .collect();
         let keys = question.drawn_keys();
         let beside = question.keys.len() - keys.len();
@@ -176,7 +184,8 @@ impl SweepFolder {
         self.place(point).with_extension("run")
     }
 
-    fn place(&self, point: &Point) -> PathBuf {
+    /// The file of a point.
+    pub fn place(&self, point: &Point) -> PathBuf {
         self.path.join(POINTS).join(self.file_name(point))
     }
 
@@ -213,6 +222,10 @@ impl Setting {
 
     fn heading(&self, column: &SummaryColumn) -> String {
         Units::heading(self.units.as_ref(), &column.name, &column.kind, self.dimension)
+    }
+
+    fn heading_of_key(&self, key: &str) -> String {
+        Units::heading(self.units.as_ref(), key, kind_of(key).unwrap_or(""), self.dimension)
     }
 }
 

@@ -18,4 +18,4 @@ pub use folder::{Kept, POINTS, RECORD, SweepFolder, UNCERTAINTY};
 pub use planned::{Planned, asks_for_more};
 pub use question::{Point, Question};
 pub use record::SweepRecord;
-pub use spread::{Quantities, QuantityRecord, Spread, SpreadRecord};
+pub use spread::{Quantities, QuantityRecord, Sampled, Spread, SpreadRecord};

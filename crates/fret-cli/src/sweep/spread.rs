@@ -83,10 +83,21 @@ impl QuantityRecord {
     }
 }
 
+/// A number of all samples.
+pub struct Sampled {
+    /// Its name.
+    pub name: String,
+    /// The same with its unit.
+    pub heading: String,
+    /// Its values; what is missing is not a number.
+    pub numbers: Vec<f64>,
+}
+
 /// What the samples say about every number of the answers, at each point of the axes beside them.
 pub struct Spread<'a> {
     keys: &'a [String],
     design: &'a SampleDesign,
+    columns: &'a [Sampled],
     points: Vec<AtPoint>,
 }
 
@@ -101,13 +112,13 @@ struct AtPoint {
 }
 
 impl<'a> Spread<'a> {
-    /// Of columns of numbers, all samples of the first point, then of the next; what is missing is not a number. `at`: the values of the
+    /// Of columns of numbers, all samples of the first point, then of the next. `at`: the values of the
     /// points, empty ones where there is no axis.
     pub fn new(
         keys: &'a [String],
         design: &'a SampleDesign,
         at: Vec<Values>,
-        columns: &'a [(String, Vec<f64>)],
+        columns: &'a [Sampled],
     ) -> Self {
         let own = if design.indices { 2 * design.count } else { design.count };
         let each = design.points();
@@ -120,10 +131,10 @@ impl<'a> Spread<'a> {
         };
         let at_point = |(place, values): (usize, Values)| {
             let part = |values: &'a [f64]| values.chunks(each).nth(place).unwrap_or_default();
-            let columns = columns.iter().map(|(name, values)| (name, part(values)));
-            AtPoint { values, quantities: columns.filter_map(quantity).collect() }
+            let parts = columns.iter().map(|column| (&column.name, part(&column.numbers)));
+            AtPoint { values, quantities: parts.filter_map(quantity).collect() }
         };
-        Self { keys, design, points: at.into_iter().enumerate().map(at_point).collect() }
+        Self { keys, design, columns, points: at.into_iter().enumerate().map(at_point).collect() }
     }
 
     /// For `uncertainty.json`.
@@ -162,7 +173,11 @@ impl<'a> Spread<'a> {
     fn part(&self, point: &AtPoint) -> String {
         let varying = || point.quantities.iter().filter(|(_, of)| of.statistics.varies(ROUNDING));
         let samples = varying().map(|(_, of)| of.statistics.count).max().unwrap_or(0);
-        let columns = QuantityRecord::columns(format!("{samples} samples"), str::to_owned);
+        let with_unit = |name: &str| {
+            let column = self.columns.iter().find(|column| column.name == name);
+            column.map_or(name, |column| &column.heading).to_owned()
+        };
+        let columns = QuantityRecord::columns(format!("{samples} samples"), with_unit);
         let mut table = columns.text(&WIDTHS, None, varying());
         if self.design.indices {
             table.push_str("\nSobol' indices, first order and total\n");

@@ -37,6 +37,30 @@ fn a_grid_of_the_wrong_unit_is_told_of_by_every_verb() {
     assert_eq!(names(&bench.fret(&["check", "good.toml", "--json"]).out), Vec::<String>::new());
 }
 
+/// Hertz: 1 N on a ball of radius r and E* = 230.8 GPa, a = (3 P r / (4 E*))^(1/3). With r = 10 mm for 10 um written, a / r is 0.15; with
+/// 10e-6 in a case in millimetres it is 1.5.
+#[test]
+fn a_length_off_by_a_thousand_is_refused_where_units_are_declared() {
+    let bench = Bench::new("thousand");
+    let case = SPHERE.replace("[240e-6, 240e-6]", "\"auto\"").replace("radius = 10e-3", "radius = 10e-6");
+    let units = "\n[units]\nlength = \"mm\"\nforce = \"N\"\n\n[grid]";
+    let in_units = case.replace("210e9", "210e3").replace("\n[grid]", units);
+    let answer = bench.file("case.toml", &in_units).fret(&["check", "case.toml"]);
+    assert_eq!(answer.code, Some(1), "{}", answer.out);
+    let a = (0.75 * 1.0 * 10e-6 / (210e3 / 0.91_f64)).cbrt();
+    let ratio = a / 10e-6;
+    assert!(ratio > 1.0);
+    let told: f64 =
+        answer.err.split("over body radius: ").nth(1).unwrap().split(',').next().unwrap().parse().unwrap();
+    assert!((told / ratio - 1.0).abs() < 0.06, "{told} {ratio}"); // a coarse grid knows the radius to a twentieth
+    assert!(answer.err.contains("case.toml:17:2") && answer.err.contains("moduli in MPa"), "{}", answer.err);
+    // numbers without units may be without dimension
+    let plain = in_units.replace(units, "\n[grid]");
+    let answer = bench.file("plain.toml", &plain).fret(&["check", "plain.toml"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert!(answer.out.contains("warning: contact radius over body radius"), "{}", answer.out);
+}
+
 #[test]
 fn a_third_value_of_a_pair_is_refused_with_its_place() {
     for (good, bad, place) in [

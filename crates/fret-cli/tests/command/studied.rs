@@ -267,7 +267,7 @@ fn the_largest_pressure_at_an_edge_or_a_tip_has_no_limit() {
         assert!(peaks.windows(2).all(|pair| pair[1] > 1.02 * pair[0]), "{name}: {peaks:?}");
         let choice = said["choice"].as_str().unwrap();
         assert!(choice.contains("max pressure is left out: it has no limit"), "{name}: {choice}");
-        let table = bench.fret(&["study", &file, "--quiet"]);
+        let table = bench.fret(&["study", &file]);
         assert!(table.out.contains("no limit, it grows with the number of cells"), "{name}: {}", table.out);
         assert!(!table.out.contains("  max pressure  "), "no column of errors: {}", table.out);
         let run = bench.fret(&["run", &file]);
@@ -359,7 +359,7 @@ fn a_study_names_the_quantities_that_it_shows() {
     let columns = table.lines().find(|line| line.trim_start().starts_with("cells ")).unwrap();
     for name in ["max pressure", "approach", "contact area", "stick area", "shift", "dissipated energy"] {
         let is_compared = above.lines().any(|line| {
-            (line.contains("compared with") || line.contains("extrapolated with")) && line.contains(name)
+            (line.contains("compared with") || line.contains("two levels")) && line.contains(name)
         });
         assert_eq!(is_compared, columns.contains(name), "{name}:\n{}", answer.out);
     }
@@ -398,4 +398,31 @@ fn a_scatter_of_numbers_is_told_to_first_order() {
         assert_ne!(answer.code, Some(0), "{words}");
         assert!(answer.err.contains(words), "{words}: {}", answer.err);
     }
+}
+
+/// Two levels show no order: the error of the finer one is the whole difference, and the answer says so.
+#[test]
+fn two_levels_show_no_convergence_and_the_answer_says_so() {
+    let bench = Bench::new("study-two-levels");
+    let coated = SPHERE
+        .replace("[lower]\n", "[lower]\ncoatings = [{ young = 400e9, poisson = 0.2, thickness = 20e-6 }]\n");
+    let call = ["study", "case.toml", "--cells", "12,24"];
+    let answer = bench.file("case.toml", &coated).fret(&call);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert!(answer.out.contains("two levels cannot show convergence"), "{}", answer.out);
+    assert!(!answer.out.contains("Richardson"), "{}", answer.out);
+    let told: Value = serde_json::from_str(&bench.text("results/case-study/study.json")).unwrap();
+    assert_eq!(told["convergence"]["approach"], "two_levels");
+    let levels = told["lines"][0]["levels"].as_array().unwrap();
+    // the largest over the ends of the stages, beside the largest reference
+    let of_stage = |stage: usize| {
+        let [coarse, fine] = [0, 1].map(|level| levels[level]["ends"][stage]["approach"].as_f64().unwrap());
+        [(fine - coarse).abs(), 2.0 * fine - coarse]
+    };
+    let [whole, beside] = [0, 1].map(|part| of_stage(0)[part].max(of_stage(1)[part]));
+    let whole = whole / beside;
+    let error = levels[1]["errors"]["approach"].as_f64().unwrap();
+    assert!((error / whole - 1.0).abs() < 1e-9, "{error} {whole}");
+    assert_eq!(bench.fret(&["report", "results/case-study"]).code, Some(0));
+    assert!(bench.text("results/case-study/report.html").contains("whole difference of two levels"));
 }

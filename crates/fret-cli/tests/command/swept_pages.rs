@@ -114,3 +114,61 @@ fn the_axis_of_an_actuator_has_its_unit() {
     assert!(page.contains("actuator, rub = 3 · 10⁻⁴\u{a0}mm"), "{page}");
     assert!(page.contains("\u{a0}N/mm"), "{page}");
 }
+
+/// Keys that change, amplitudes and stiffness have their units in every table: those of a loop of force and shift, or of moment and rotation.
+#[test]
+fn heads_of_a_sweep_have_their_units() {
+    let bench = Bench::new("sweep-units");
+    let case = |motion: &str| {
+        format!(
+            "units = {{ length = 'mm', force = 'N' }}\ngrid = {{ cells = [16, 16], size = [0.3, 0.3] }}\nupper.rigid = true\n\
+             lower.substrate = {{ young = 210e3, poisson = 0.3 }}\nprofile.sphere.radius = 10.0\nfriction.coefficient = 0.3\n\
+             [[load]]\nname = 'press'\nnormal_force = 10.0\nincrements = 1\n[[load]]\nname = 'rub'\n{motion}\ncycles = 1\nincrements = 8\n"
+        )
+    };
+    let sweep = "base = 'case.toml'\n[axes]\n'load.press.normal_force' = [8.0, 10.0]\n'friction.coefficient' = [0.3]\n";
+    bench.file("sweep.toml", sweep);
+    for (motion, amplitude, stiffness) in
+        [("shift = [1e-4, 0.0]", ["N", "mm"], "N/mm"), ("twist = 1e-3", ["N mm", "rad"], "N mm")]
+    {
+        let folder = amplitude[1];
+        bench.file("case.toml", &case(motion));
+        let answer = bench.fret(&["sweep", "sweep.toml", "-q", "-o", folder]);
+        assert_eq!(answer.code, Some(0), "{}", answer.err);
+        let head = bench.text(&format!("{folder}/summary.csv")).lines().next().unwrap().to_owned();
+        let [force, motion] = amplitude;
+        for column in [
+            "load.press.normal_force [N]",
+            "friction.coefficient",
+            &format!("cycle_force_amplitude [{force}]"),
+            &format!("cycle_displacement_amplitude [{motion}]"),
+            &format!("cycle_stiffness [{stiffness}]"),
+        ] {
+            assert!(head.split(',').any(|found| found == column), "{column}: {head}");
+        }
+        assert_eq!(bench.fret(&["report", folder]).code, Some(0));
+        let page = bench.text(&format!("{folder}/report.html"));
+        assert!(page.contains(&format!("\u{a0}{stiffness}<")), "{page}");
+        assert_eq!(bench.fret(&["run", "case.toml", "-q", "--force", "-o", "run"]).code, Some(0));
+        let head = bench.text("run/cycles.csv").lines().next().unwrap().to_owned();
+        for column in [
+            format!("force_amplitude [{force}]"),
+            format!("opening [{motion}]"),
+            format!("stiffness [{stiffness}]"),
+        ] {
+            assert!(head.split(',').any(|found| found == column), "{column}: {head}");
+        }
+    }
+    // what the samples say of numbers has their units, too
+    let drawn = "base = 'case.toml'\n[distributions]\n'load.press.normal_force' = { uniform = { from = 8.0, to = 10.0 } }\n[samples]\ncount = 4\n";
+    bench.file("case.toml", &case("shift = [1e-4, 0.0]"));
+    let answer = bench.file("drawn.toml", drawn).fret(&["sweep", "drawn.toml"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert!(
+        answer.out.contains("cycle_stiffness [N/mm]") && answer.out.contains("max_pressure [MPa]"),
+        "{}",
+        answer.out
+    );
+    assert_eq!(bench.fret(&["report", "results/drawn"]).code, Some(0));
+    assert!(bench.text("results/drawn/report.html").contains("[N] (uniform"));
+}

@@ -83,7 +83,7 @@ fn lives_and_cracks_of_a_point_are_those_of_its_run() {
         ("smith_watson_topper_cycles", &of["cycles"]),
         ("smith_watson_topper_point_cycles", &of["critical_distance"]["point"]["cycles"]),
         ("smith_watson_topper_line_cycles", &of["critical_distance"]["line"]["cycles"]),
-        ("crack_angle", &alone["fatigue"]["crack"]["angle"]),
+        ("crack_angle [degrees]", &alone["fatigue"]["crack"]["angle"]),
         ("crack_length [mm]", &alone["fatigue"]["crack"]["length"]),
     ] {
         assert_eq!(number(&summary, name, 1), value.as_f64().unwrap(), "{name}");

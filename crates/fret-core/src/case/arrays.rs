@@ -55,6 +55,8 @@ pub(super) struct Cells {
     pub count: [usize; 2],
     /// Side lengths of the grid, where they are given.
     pub size: Option<[f64; 2]>,
+    /// Whether the scene repeats along x and y.
+    pub repeats: [bool; 2],
 }
 
 /// How the numbers of an array are laid out.
@@ -82,7 +84,7 @@ pub(super) fn fitting(
     array: Array2<f64>,
     layout: Layout,
 ) -> Option<Array2<f64>> {
-    let Cells { count, size } = cells?;
+    let Cells { count, size, .. } = cells?;
     let turned = |array: Array2<f64>| array.reversed_axes().as_standard_layout().into_owned();
     let is_list = points::is_list(&array, count);
     if is_list && (count[1] == 1 || array.nrows() >= count[0].max(count[1])) {

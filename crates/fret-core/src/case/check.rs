@@ -56,7 +56,8 @@ pub(super) fn case(
     let (units, dimension) = (judge.units.clone(), judge.dimension);
     let cells = cells(&mut judge, &file.grid.cells);
     let size = size(&mut judge, &file.grid.size, cells);
-    let over = cells.map(|count| Cells { count, size: size.and_then(GridSize::given) });
+    let along = file.grid.periodic.as_ref().map_or([false; 2], |periodic| periodic.value.axes());
+    let over = cells.map(|count| Cells { count, size: size.and_then(GridSize::given), repeats: along });
     let bodies = bodies(&mut judge, &file.upper, &file.lower);
     let files = [("lower", &file.lower.value), ("upper", &file.upper.value)];
     let residual_stress = files.map(|body| residual(&mut judge, body));

@@ -3,7 +3,7 @@
 use super::file::UnitsFile;
 use super::judge::Judge;
 use crate::document::At;
-use crate::units::Units;
+use crate::units::{Units, symbol_of};
 
 /// Letters of a unit, at most.
 const LONGEST: usize = 12;
@@ -15,6 +15,11 @@ pub(super) fn declared_units(judge: &mut Judge, file: &UnitsFile) -> Option<Unit
         let is_word = !unit.is_empty()
             && unit.chars().count() <= LONGEST
             && unit.chars().all(|letter| letter.is_alphanumeric() || "/^*._-%'\"°".contains(letter));
+        if let Some(symbol) = symbol_of(unit) {
+            let why = "the name of a unit, where its symbol stands: nothing could be converted";
+            let message = format!("units.{name} = {unit:?}: {why}");
+            return judge.refuse(given.span(), message, &format!("{name} = \"{symbol}\""));
+        }
         if is_word {
             return Some(unit.clone());
         }
@@ -48,6 +53,8 @@ mod tests {
                 &place,
             );
         }
+        let named = [("[grid]", &units("millimeter")[..])];
+        refused(BALL, &named, "units.length = \"millimeter\": the name of a unit", "\"millimeter\"");
         assert_eq!(read(BALL, &[]).units, None);
     }
 }

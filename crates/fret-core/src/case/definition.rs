@@ -108,6 +108,14 @@ pub(crate) struct Origin {
     pub size: std::ops::Range<usize>,
 }
 
+impl Origin {
+    /// Where a table is named first; `None` of a case that no text was read for.
+    fn place_of(&self, table: &str) -> Option<std::ops::Range<usize>> {
+        let tables = toml::de::DeTable::parse(&self.text).ok()?.into_inner();
+        tables.keys().find(|written| written.get_ref().as_ref() == table).map(toml::Spanned::span)
+    }
+}
+
 /// Side lengths of the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -235,22 +243,24 @@ impl Case {
         CaseError::new(&self.origin.name, &self.origin.text, vec![mistake])
     }
 
+    /// Refuses the case for what one of its tables says.
+    pub(crate) fn refuse_table(&self, table: &str, message: String, help: String) -> CaseError {
+        let mistake = Mistake { message, help: Some(help), span: self.origin.place_of(table) };
+        CaseError::new(&self.origin.name, &self.origin.text, vec![mistake])
+    }
+
     /// Refuses the case for the state that its history would start from, which is one of another setting.
     pub(crate) fn refuse_start(&self, differences: &[Difference]) -> CaseError {
         let text = &self.origin.text;
-        let tables = toml::de::DeTable::parse(text).ok().map(toml::Spanned::into_inner);
         let mistakes = differences.iter().map(|Difference { key, case, state }| {
             let table = key.split(['.', '[']).next().unwrap_or_default();
-            let found = tables.as_ref().and_then(|tables| {
-                tables.keys().find(|written| written.get_ref().as_ref() == table).map(toml::Spanned::span)
-            });
             Mistake {
                 message: format!("{key} = {case}: the state to start from has {state}"),
                 help: Some(
                     "grid, bodies and profile are those of the state; loads, friction and wear may differ"
                         .to_owned(),
                 ),
-                span: found,
+                span: self.origin.place_of(table),
             }
         });
         CaseError::new(&self.origin.name, text, mistakes.collect())

@@ -40,8 +40,11 @@ pub fn refuse_too_long(text: &str, name: &str, what: &str) -> Result<(), CaseErr
 pub(super) fn case(text: &str, name: &str, attachments: Attachments<'_>) -> Result<Case, CaseError> {
     refuse_too_long(text, name, "a case file")?;
     let root = DeTable::parse(text).map_err(|error| {
-        let message = format!("not readable as TOML: {}", error.message());
-        CaseError::new(name, text, vec![Mistake { message, help: None, span: error.span() }])
+        let span = error.span();
+        let found = span.clone().and_then(|span| text.get(span)).and_then(without_comma);
+        let why = if found.is_some() { "a comma is missing between numbers" } else { error.message() };
+        let message = format!("not readable as TOML: {why}");
+        CaseError::new(name, text, vec![Mistake { message, help: found, span }])
     })?;
     if depth(root.get_ref()) > DEEPEST {
         return Err(CaseError::plain(name, format!("tables nested deeper than {DEEPEST}: not a case")));
@@ -65,6 +68,13 @@ pub(super) fn case(text: &str, name: &str, attachments: Attachments<'_>) -> Resu
             Err(CaseError::new(name, text, mistakes))
         }
     }
+}
+
+/// Numbers with blanks between them, as a list has them: with commas.
+fn without_comma(text: &str) -> Option<String> {
+    let parts: Vec<&str> = text.split_whitespace().collect();
+    let are_numbers = parts.iter().all(|part| part.parse::<f64>().is_ok());
+    (parts.len() > 1 && are_numbers).then(|| parts.join(", "))
 }
 
 fn depth(table: &DeTable<'_>) -> usize {

@@ -5,27 +5,40 @@ use std::f64::consts::{LN_2, PI};
 use ndarray::{Array2, Axis};
 
 /// Mean of heights under a Gaussian weight that passes half of a wave of length `cutoff` along either axis [points]; beyond the border
-/// the weights that remain are made one again.
-pub fn smoothed(heights: &Array2<f64>, cutoff: [f64; 2]) -> Array2<f64> {
+/// the weights that remain are made one again, or the points are those of the other end where the surface repeats.
+pub fn smoothed(heights: &Array2<f64>, cutoff: [f64; 2], repeats: [bool; 2]) -> Array2<f64> {
     let mut smooth = heights.clone();
     for (axis, cutoff) in cutoff.into_iter().enumerate() {
         if smooth.len_of(Axis(axis)) > 1 {
-            along(&mut smooth, axis, cutoff);
+            along(&mut smooth, axis, cutoff, repeats[axis]);
         }
     }
     smooth
 }
 
 /// At a distance of the cutoff the weight is 7e-7 of that in the middle, and what lies beyond counts for nothing.
-fn along(heights: &mut Array2<f64>, axis: usize, cutoff: f64) {
+fn along(heights: &mut Array2<f64>, axis: usize, cutoff: f64, repeats: bool) {
     let alpha = (LN_2 / PI).sqrt();
     let count = heights.len_of(Axis(axis));
-    let reach = (cutoff.ceil() as usize).min(count - 1);
+    let most = if repeats { usize::MAX } else { count - 1 };
+    let reach = (cutoff.ceil() as usize).min(most);
     let weights: Vec<f64> =
         (0..=reach).map(|away| (-PI * (away as f64 / (alpha * cutoff)).powi(2)).exp()).collect();
     let mut before = vec![0.0; count];
     for mut lane in heights.lanes_mut(Axis(axis)) {
         before.iter_mut().zip(&lane).for_each(|(before, height)| *before = *height);
+        if repeats {
+            let all = weights[0] + 2.0 * weights[1..].iter().sum::<f64>();
+            for (place, height) in lane.iter_mut().enumerate() {
+                let at = |away: usize| {
+                    before[(place + count - away % count) % count] + before[(place + away) % count]
+                };
+                let sides: f64 =
+                    weights.iter().enumerate().skip(1).map(|(away, weight)| weight * at(away)).sum();
+                *height = (weights[0] * before[place] + sides) / all;
+            }
+            continue;
+        }
         for (place, height) in lane.iter_mut().enumerate() {
             let (mut sum, mut weight) = (0.0, 0.0);
             let last = (place + reach).min(count - 1);
@@ -42,6 +55,22 @@ fn along(heights: &mut Array2<f64>, axis: usize, cutoff: f64) {
 mod tests {
     use super::*;
 
+    /// A wave that repeats is damped by the transmission everywhere, up to the border; so is one of a period shorter than the reach.
+    #[test]
+    fn a_period_has_no_border() {
+        for (count, waves, cutoff) in [(40, 2, 25.0_f64), (12, 1, 30.0)] {
+            let wavelength = f64::from(count) / f64::from(waves);
+            let wave = |at: usize| (2.0 * PI * at as f64 / wavelength + 0.4).cos();
+            let surface = Array2::from_shape_fn((count as usize, 2), |(i, _)| wave(i));
+            let transmission = (-LN_2 * (cutoff / wavelength).powi(2)).exp();
+            let smooth = smoothed(&surface, [cutoff, 1e-3], [true, false]);
+            for i in 0..count as usize {
+                // the weight that is cut off at the reach is 1e-6
+                assert!((smooth[[i, 1]] - transmission * surface[[i, 1]]).abs() < 3e-6, "{count} {i}");
+            }
+        }
+    }
+
     /// ISO 16610-21: the transmission is exp(-pi (alpha cutoff / wavelength)^2), one half at the cutoff.
     #[test]
     fn a_wave_is_damped_by_the_transmission_of_the_standard() {
@@ -49,7 +78,7 @@ mod tests {
             let wave = |at: f64| (2.0 * PI * at / wavelength).cos();
             let surface = Array2::from_shape_fn((401, 3), |(i, _)| wave(i as f64 - 200.0));
             let transmission = (-LN_2 * (cutoff / wavelength).powi(2)).exp();
-            let smooth = smoothed(&surface, [cutoff, 1e-3]);
+            let smooth = smoothed(&surface, [cutoff, 1e-3], [false; 2]);
             // far from the border; the weight that is cut off at the reach is 1e-6
             for i in 150..250 {
                 assert!(
@@ -63,6 +92,6 @@ mod tests {
     #[test]
     fn a_level_surface_stays_level_up_to_its_border() {
         let level = Array2::from_elem((20, 30), 7.25);
-        assert!((smoothed(&level, [9.0, 50.0]) - &level).iter().all(|error| error.abs() < 1e-14));
+        assert!((smoothed(&level, [9.0, 50.0], [false; 2]) - &level).iter().all(|error| error.abs() < 1e-14));
     }
 }

@@ -24,12 +24,14 @@ pub struct MeasuredSurface {
     pub places: [Vec<f64>; 2],
     /// From where to where the grid lies along x and y.
     pub window: [Range<f64>; 2],
+    /// Whether the window is a period of the surface along x and y, which goes on at its other end.
+    pub repeats: [bool; 2],
 }
 
 impl MeasuredSurface {
     /// Mean height of each of so many cells along x and y.
     pub fn on(&self, cells: [usize; 2]) -> Array2<f64> {
-        resampled(&self.heights, [&self.places[0], &self.places[1]], &self.window, cells)
+        resampled(&self.heights, [&self.places[0], &self.places[1]], (&self.window, self.repeats), cells)
     }
 
     /// Whether cells are finer than the points, between which the surface is straight.
@@ -41,27 +43,39 @@ impl MeasuredSurface {
 }
 
 /// Mean height of every cell: that of the surface which is linear between the points (bilinear in two dimensions). `places` are those
-/// of the points along x and y, `window` from where to where the cells lie. A plane stays the same plane.
+/// of the points along x and y, `window` from where to where the cells lie, and whether it is a period. A plane stays the same plane.
 pub fn resampled(
     heights: &Array2<f64>,
     places: [&[f64]; 2],
-    window: &[Range<f64>; 2],
+    (window, repeats): (&[Range<f64>; 2], [bool; 2]),
     cells: [usize; 2],
 ) -> Array2<f64> {
     let mut heights = heights.clone();
     for axis in [0, 1] {
-        let weights = weights(places[axis], &window[axis], cells[axis]);
+        let ghosts = if repeats[axis] { with_ghosts(places[axis], &window[axis]) } else { Vec::new() };
+        let places = if ghosts.is_empty() { places[axis] } else { &ghosts };
+        let weights = weights(places, &window[axis], cells[axis]);
+        // the first of the points with ghosts is the last one
+        let before = if ghosts.is_empty() { 0 } else { heights.len_of(Axis(axis)) - 1 };
         let mut shape = [heights.nrows(), heights.ncols()];
         shape[axis] = cells[axis];
         let mut means = Array2::zeros(shape);
         for (lane, mut mean) in heights.lanes(Axis(axis)).into_iter().zip(means.lanes_mut(Axis(axis))) {
             for (weights, mean) in weights.iter().zip(&mut mean) {
-                *mean = weights.of.iter().zip(lane.iter().skip(weights.first)).map(|(w, h)| w * h).sum();
+                let at = |place: usize| lane[(weights.first + place + before) % lane.len()];
+                *mean = weights.of.iter().enumerate().map(|(place, w)| w * at(place)).sum();
             }
         }
         heights = means;
     }
     heights
+}
+
+/// The points of a period with the last one before the first, and the first one after the last.
+fn with_ghosts(places: &[f64], window: &Range<f64>) -> Vec<f64> {
+    let (Some(first), Some(last)) = (places.first(), places.last()) else { return Vec::new() };
+    let period = window.end - window.start;
+    [last - period].into_iter().chain(places.iter().copied()).chain([first + period]).collect()
 }
 
 /// The integral over each cell, by its width, of the hat functions of the points; the first and the last line go on beyond the points.
@@ -101,7 +115,7 @@ mod tests {
         let heights = Array2::from_shape_fn((points[0], points[1]), |(i, j)| plane(x[i], y[j]));
         for cells in [[40, 30], [7, 64], [16, 16], [200, 1]] {
             let window = [2.0..17.0, 0.0..12.0];
-            let found = resampled(&heights, [&x, &y], &window, cells);
+            let found = resampled(&heights, [&x, &y], (&window, [false; 2]), cells);
             for ((i, j), height) in found.indexed_iter() {
                 let at = |axis: usize, cell: usize| {
                     let Range { start, end } = window[axis];
@@ -117,12 +131,28 @@ mod tests {
     fn a_cell_has_the_mean_of_the_surface_between_the_points() {
         let x = even(3, 1.0);
         let peak = Array2::from_shape_vec((3, 1), vec![0.0, 8.0, 0.0]).unwrap();
-        let found = resampled(&peak, [&x, &[0.0]], &[0.0..3.0, 0.0..1.0], [3, 1]);
+        let found = resampled(&peak, [&x, &[0.0]], (&[0.0..3.0, 0.0..1.0], [false; 2]), [3, 1]);
         // beyond the first point the line goes on: from -4 at the border to 4 at the edge of the cell
         assert_eq!(found.into_raw_vec_and_offset().0, [0.0, 6.0, 0.0]);
         // uneven points; one cell over all of them has the area of the two triangles, 8 * 3 / 2, by its width
-        let whole = resampled(&peak, [&[0.0, 1.0, 3.0], &[0.0]], &[0.0..3.0, 0.0..1.0], [1, 1]);
+        let whole = resampled(&peak, [&[0.0, 1.0, 3.0], &[0.0]], (&[0.0..3.0, 0.0..1.0], [false; 2]), [1, 1]);
         assert!((whole[[0, 0]] - 4.0).abs() < 1e-14);
+    }
+
+    /// A period moved by whole points is the same surface moved by them; here by three cells a point.
+    #[test]
+    fn a_period_has_no_border() {
+        let heights = Array2::from_shape_fn((12, 10), |(i, j)| ((7 * i + 5 * j) % 13) as f64);
+        let moved = Array2::from_shape_fn((12, 10), |(i, j)| heights[[(i + 5) % 12, (j + 3) % 10]]);
+        let (x, y) = (even(12, 0.2), even(10, 0.3));
+        let on = |heights: &Array2<f64>| {
+            resampled(heights, [&x, &y], (&[0.0..2.4, 0.0..3.0], [true; 2]), [36, 30])
+        };
+        let (found, of_moved) = (on(&heights), on(&moved));
+        for ((i, j), height) in of_moved.indexed_iter() {
+            // rounding of places and weights
+            assert!((height - found[[(i + 15) % 36, (j + 9) % 30]]).abs() < 1e-12, "{i} {j}");
+        }
     }
 
     /// The mean over all cells is the integral of the surface, however fine they are.
@@ -131,7 +161,8 @@ mod tests {
         let heights = Array2::from_shape_fn((31, 23), |(i, j)| ((7 * i + 5 * j) % 13) as f64);
         let [x, y] = [even(31, 0.2), even(23, 0.3)];
         let mean = |cells: [usize; 2]| {
-            let found = resampled(&heights, [&x, &y], &[0.3..6.0, 0.1..6.8], cells);
+            let window = [0.3..6.0, 0.1..6.8];
+            let found = resampled(&heights, [&x, &y], (&window, [false; 2]), cells);
             found.sum() / found.len() as f64
         };
         let right = mean([1, 1]);

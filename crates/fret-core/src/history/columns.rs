@@ -1,6 +1,7 @@
 //! The vocabulary of the tables: every column of increments and of cycles with its name, its meaning, its unit and its value. The
 //! files of the command, the Python package and the reference page are made from it, so a new column is a line here.
 
+use super::cycle::Drive;
 use super::records::StepRecord;
 use crate::solver::Regime;
 
@@ -11,7 +12,8 @@ const SECONDS: &str = "s";
 pub(super) const LENGTH: &str = "length";
 const AREA: &str = "length^2";
 pub(super) const VOLUME: &str = "length^3";
-const FORCE: &str = "force";
+pub(super) const FORCE: &str = "force";
+pub(super) const STIFFNESS: &str = "force/length";
 pub(super) const WORK: &str = "force x length";
 const PRESSURE: &str = "pressure";
 
@@ -24,8 +26,21 @@ pub struct Column<R: 'static> {
     pub meaning: &'static str,
     /// Its unit in those of the case, `-` for a ratio; empty where it has none, or where that depends on the case.
     pub unit: &'static str,
+    /// The same of a contact that turns about its normal, where that is another: a loop of twist and moment has no force.
+    pub turning: Option<&'static str>,
     /// Its value in a record.
     pub value: Value<R>,
+}
+
+impl<R> Column<R> {
+    /// Its unit where all rows are driven so; empty where some rows are driven otherwise (`None`) and it has another unit there.
+    pub fn unit_driven(&self, drive: Option<Drive>) -> &'static str {
+        match (self.turning, drive) {
+            (None, _) | (_, Some(Drive::Tangential)) => self.unit,
+            (Some(turning), Some(Drive::Torsional)) => turning,
+            (Some(_), None) => NO_UNIT,
+        }
+    }
 }
 
 /// Where a value stands in a record; by this, what kind it is.
@@ -45,13 +60,19 @@ pub enum Value<R: 'static> {
     Word(fn(&R) -> &'static str),
 }
 
+/// A column with another unit where the contact turns.
+pub(super) const fn or_turning<R>(turning: &'static str, column: Column<R>) -> Column<R> {
+    let Column { name, meaning, unit, value, .. } = column;
+    Column { name, meaning, unit, turning: Some(turning), value }
+}
+
 pub(super) const fn count<R>(
     name: &'static str,
     meaning: &'static str,
     unit: &'static str,
     value: fn(&R) -> usize,
 ) -> Column<R> {
-    Column { name, meaning, unit, value: Value::Count(value) }
+    Column { name, meaning, unit, turning: None, value: Value::Count(value) }
 }
 
 pub(super) const fn real<R>(
@@ -60,7 +81,7 @@ pub(super) const fn real<R>(
     unit: &'static str,
     value: fn(&R) -> f64,
 ) -> Column<R> {
-    Column { name, meaning, unit, value: Value::Real(value) }
+    Column { name, meaning, unit, turning: None, value: Value::Real(value) }
 }
 
 pub(super) const fn real_or_none<R>(
@@ -69,7 +90,7 @@ pub(super) const fn real_or_none<R>(
     unit: &'static str,
     value: fn(&R) -> Option<f64>,
 ) -> Column<R> {
-    Column { name, meaning, unit, value: Value::RealOrNone(value) }
+    Column { name, meaning, unit, turning: None, value: Value::RealOrNone(value) }
 }
 
 const fn real_or_zero<R>(
@@ -78,7 +99,7 @@ const fn real_or_zero<R>(
     unit: &'static str,
     value: fn(&R) -> Option<f64>,
 ) -> Column<R> {
-    Column { name, meaning, unit, value: Value::RealOrZero(value) }
+    Column { name, meaning, unit, turning: None, value: Value::RealOrZero(value) }
 }
 
 pub(super) const fn truth<R>(
@@ -87,7 +108,7 @@ pub(super) const fn truth<R>(
     unit: &'static str,
     value: fn(&R) -> bool,
 ) -> Column<R> {
-    Column { name, meaning, unit, value: Value::Truth(value) }
+    Column { name, meaning, unit, turning: None, value: Value::Truth(value) }
 }
 
 pub(super) const fn word<R>(
@@ -96,7 +117,7 @@ pub(super) const fn word<R>(
     unit: &'static str,
     value: fn(&R) -> &'static str,
 ) -> Column<R> {
-    Column { name, meaning, unit, value: Value::Word(value) }
+    Column { name, meaning, unit, turning: None, value: Value::Word(value) }
 }
 
 /// Columns of the table of increments, in its order: `history.csv`, and `history.increments` in Python.

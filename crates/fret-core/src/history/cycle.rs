@@ -1,6 +1,12 @@
 //! A cycle seen as a whole: what tribologists read from its loop of force and displacement.
 
+use std::ops::Range;
+
 use serde::{Deserialize, Serialize};
+
+use crate::case::Case;
+use crate::model::controls::{TANGENTIAL, TILT, TWIST};
+use crate::model::stage::Stage;
 
 /// Energy ratio `W / (4 Q* d*)` above which a sphere slides: Fouvry, Kapsa & Vincent (1995), Wear 185, 35. It is what Mindlin
 /// and Deresiewicz's loop has at `Q* = mu P`.
@@ -14,6 +20,30 @@ pub enum Drive {
     Tangential,
     /// A moment and twist about z.
     Torsional,
+}
+
+impl Drive {
+    /// What drives all cycles of a case, as far as its stages say; `None` where both do.
+    pub fn of<M, H>(case: &Case<M, H>) -> Option<Self> {
+        let moves = |freedoms: Range<usize>| {
+            let cycles = case.stages.iter().filter(|stage| stage.cycles().is_some());
+            cycles.map(Stage::by_freedom).any(|controls| {
+                controls[freedoms.clone()].iter().flatten().any(|control| !control.path().is_zero())
+            })
+        };
+        match [moves(TANGENTIAL..TWIST), moves(TWIST..TILT)] {
+            [_, false] => Some(Self::Tangential),
+            [false, true] => Some(Self::Torsional),
+            [true, true] => None,
+        }
+    }
+
+    /// What drives all of some cycles; `None` where they differ.
+    pub fn of_all(cycles: impl IntoIterator<Item = Self>) -> Option<Self> {
+        let mut cycles = cycles.into_iter();
+        let first = cycles.next().unwrap_or(Self::Tangential);
+        cycles.all(|other| other == first).then_some(first)
+    }
 }
 
 /// What the contact does over a cycle.

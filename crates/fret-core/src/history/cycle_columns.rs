@@ -1,7 +1,8 @@
 //! The vocabulary of the table of cycles: a new column is a line here.
 
 use super::columns::{
-    ANGLE, Column, LENGTH, NO_UNIT, RATIO, VOLUME, WORK, count, real, real_or_none, truth, word,
+    ANGLE, Column, FORCE, LENGTH, NO_UNIT, RATIO, STIFFNESS, VOLUME, WORK, count, or_turning, real,
+    real_or_none, truth, word,
 };
 use super::cycle::{CycleRecord, CycleRegime, Drive};
 
@@ -21,21 +22,38 @@ pub static CYCLE_COLUMNS: &[Column<CycleRecord>] = &[
     real("direction", "direction of the tangential force's main axis, from x", ANGLE, |cycle| {
         cycle.direction
     }),
-    real("force_amplitude", "Q*: half the range of the force along it, or of the moment", NO_UNIT, |cycle| {
-        cycle.force_amplitude
-    }),
-    real(
-        "displacement_amplitude",
-        "delta*: half the range of the relative displacement along it, or of the twist",
-        NO_UNIT,
-        |cycle| cycle.displacement_amplitude,
+    or_turning(
+        WORK,
+        real(
+            "force_amplitude",
+            "Q*: half the range of the force along it, or of the moment",
+            FORCE,
+            |cycle| cycle.force_amplitude,
+        ),
     ),
-    real("opening", "delta_0: loop half-width at the middle of the force range", NO_UNIT, |cycle| {
-        cycle.opening
-    }),
+    or_turning(
+        ANGLE,
+        real(
+            "displacement_amplitude",
+            "delta*: half the range of the relative displacement along it, or of the twist",
+            LENGTH,
+            |cycle| cycle.displacement_amplitude,
+        ),
+    ),
+    or_turning(
+        ANGLE,
+        real("opening", "delta_0: loop half-width at the middle of the force range", LENGTH, |cycle| {
+            cycle.opening
+        }),
+    ),
     real_or_none("energy_ratio", "A = W_d / (4 Q* delta*)", RATIO, |cycle| cycle.energy_ratio),
     real_or_none("sliding_ratio", "D = delta_0 / delta*", RATIO, |cycle| cycle.sliding_ratio),
-    real_or_none("stiffness", "slope of the loop directly after reversal", NO_UNIT, |cycle| cycle.stiffness),
+    or_turning(
+        WORK,
+        real_or_none("stiffness", "slope of the loop directly after reversal", STIFFNESS, |cycle| {
+            cycle.stiffness
+        }),
+    ),
     word("regime", "sliding condition: full_stick, partial_slip, mixed or gross_slip", NO_UNIT, |cycle| {
         cycle.regime.map_or("", cycle_regime_word)
     }),
@@ -64,7 +82,7 @@ pub static CYCLE_COLUMNS: &[Column<CycleRecord>] = &[
     real_or_none(
         "actuator_amplitude",
         "half the range of the actuator's displacement along the axis of the force",
-        NO_UNIT,
+        LENGTH,
         |cycle| cycle.actuator_amplitude,
     ),
     real_or_none("actuator_energy_ratio", "A of the loop at the actuator", RATIO, |cycle| {
@@ -76,7 +94,7 @@ pub static CYCLE_COLUMNS: &[Column<CycleRecord>] = &[
     real_or_none(
         "actuator_stiffness",
         "slope of the loop at the actuator directly after reversal",
-        NO_UNIT,
+        STIFFNESS,
         |cycle| cycle.actuator_stiffness,
     ),
     real(

@@ -31,6 +31,12 @@ pub struct ExpectedContact {
     pub approach: f64,
 }
 
+/// Half-widths over the radii of curvature of the profile [-], the larger; 0 where it has none.
+pub fn over_body(case: &Case, half_widths: [f64; 2]) -> f64 {
+    let [x, y] = case.profile.curvatures();
+    (half_widths[0] * x).max(half_widths[1] * y)
+}
+
 /// Where the contact stays under the heaviest load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Extent {

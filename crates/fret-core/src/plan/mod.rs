@@ -23,8 +23,8 @@ use crate::machine::memory::{MemoryError, claim};
 use crate::model::{Body, ContactState, Frame, SurfaceGrid, Symmetry};
 pub use crate::solver::Coupling;
 pub use advance::Advance;
-pub use extent::ExpectedContact;
 use extent::{COARSE, Unexpected, automatic_size, expected_contact, reaches_beyond};
+pub use extent::{ExpectedContact, over_body};
 pub use left_out::LeftOut;
 pub use memory::of_stress as memory_of_stress;
 use moving::{in_whole_cells, is_displaced, with_room_to_move};
@@ -139,6 +139,7 @@ impl Plan {
             }
         };
         let expected = expected.ok();
+        can_be_meant(&case, expected.as_ref())?;
         let given = [size[0] / case.cells[0] as f64, size[1] / case.cells[1] as f64];
         let same = start.as_deref().filter(|start| start.has_spacing(given));
         let spacing = same.and_then(Start::spacing).unwrap_or(given);
@@ -277,6 +278,23 @@ fn without_size(case: &Case, why: Unexpected) -> CaseError {
         ),
     };
     case.refuse_size(message, help)
+}
+
+/// Refuses a contact wider than the body that makes it, of a case in units: a length, a modulus or a load in another unit than the declared
+/// one. Without units it may be a contact in numbers without dimension, of which a warning tells.
+fn can_be_meant(case: &Case, expected: Option<&ExpectedContact>) -> Result<(), CaseError> {
+    let over_body = expected.map_or(0.0, |contact| over_body(case, contact.half_widths));
+    let Some(units) = case.units.as_ref().filter(|_| over_body > 1.0) else { return Ok(()) };
+    let message = format!(
+        "contact radius over body radius: {over_body:.3}, a contact wider than its body: a number is in another unit than the declared ones"
+    );
+    let help = format!(
+        "lengths of the profile in {}, forces in {}, moduli in {}; or loads that are meant",
+        units.of("length"),
+        units.of("force"),
+        units.of("pressure")
+    );
+    Err(case.refuse_table("profile", message, help))
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]

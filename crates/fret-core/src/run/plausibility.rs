@@ -8,7 +8,7 @@ use super::strides::Strides;
 use crate::case::Path;
 use crate::history::{Concern, CycleRecord, STIFFEST, StepRecord, Warning};
 use crate::model::{Base, Body, BulkCompliance, Coating, Control, ElasticMaterial, Shape};
-use crate::plan::Plan;
+use crate::plan::{Plan, over_body};
 use crate::units::Units;
 
 /// What follows from the case alone, with the contact that its plan expects.
@@ -24,7 +24,7 @@ pub fn of_plan(plan: &Plan) -> Vec<Warning> {
         // A coarse grid has found them: what it cannot tell from the bound is left to the run.
         look(Concern::FewCells, 1.05 * (x / dx).min(y / dy));
         let radius = (x * y).sqrt();
-        look(Concern::ContactRadiusOverBodyRadius, over_body(plan, [x, y]));
+        look(Concern::ContactRadiusOverBodyRadius, over_body(&plan.case, [x, y]));
         look(Concern::ApproachOverContactRadius, contact.approach / x.min(y));
         look(Concern::ApproachOverLayerThickness, contact.approach / layers_on_rigid_base(plan));
         if !plan.case.kinematics.is_finite() && !plan.case.rolls() {
@@ -58,12 +58,6 @@ fn largest_modulus(plan: &Plan) -> f64 {
         }
     };
     of_body(plan.case.bodies.upper()).max(of_body(plan.case.bodies.lower()))
-}
-
-/// Half-widths over the radii of curvature of the profile, the larger; 0 where it has none.
-fn over_body(plan: &Plan, half_widths: [f64; 2]) -> f64 {
-    let [x, y] = plan.case.profile.curvatures();
-    (half_widths[0] * x).max(half_widths[1] * y)
 }
 
 /// Layers on a rigid base [length], the thinner stack; infinite where there is none.
@@ -265,7 +259,7 @@ impl Gauge {
             Concern::ContactRadiusOverBodyRadius,
             &mut touching()
                 .filter(|_| is_round(plan))
-                .map(|end| (over_body(plan, [radius(end); 2]), end.stage)),
+                .map(|end| (over_body(&plan.case, [radius(end); 2]), end.stage)),
         );
         // On a rough surface the approach counts from the highest peak, and on a periodic half-space it has no zero.
         let strained = || touching().filter(|_| !rough && plan.case.periodic.is_none());

@@ -13,15 +13,15 @@ pub enum Heading {
     Alone,
     /// To a limit that lies so far beyond the last value; the order is the one that three values show.
     Limit(f64),
-    /// The same with an order that is taken for granted: two values show none.
-    Assumed(f64),
+    /// Nowhere that two values show; the whole change from one to the other lies beyond the last, as far as is known.
+    TwoLevels(f64),
     /// The last three values do not approach a limit from one side with an order within the bounds.
     NotAsymptotic,
 }
 
 /// Where `values` at resolutions `counts` (both from coarse to fine) are heading. Of three values the order has to lie between half and
-/// twice the `known` one, or else between the bounds on any order; of two the known one is taken, or else the first. What changes by less than `noise`
-/// has arrived.
+/// twice the `known` one, or else between the bounds on any order. Two show none: the whole change counts, which is more than what is missing
+/// wherever the order and the ratio of the counts are such that changes at least halve. What changes by less than `noise` has arrived.
 pub fn heading(counts: &[f64], values: &[f64], known: Option<f64>, noise: f64) -> Heading {
     let n = counts.len().min(values.len());
     if n < 2 || counts[n - 1] <= counts[n - 2] {
@@ -36,7 +36,7 @@ pub fn heading(counts: &[f64], values: &[f64], known: Option<f64>, noise: f64) -
         return Heading::Limit(0.0);
     }
     if n == 2 {
-        return Heading::Assumed(beyond(known.unwrap_or(1.0)));
+        return Heading::TwoLevels(step);
     }
     let within = known.map_or(ORDERS, |known| [0.5 * known, 2.0 * known]);
     match shown_order(&counts[n - 3..n], &values[n - 3..n], within) {
@@ -75,7 +75,7 @@ mod tests {
     fn limit(counts: &[f64], values: &[f64], known: Option<f64>) -> f64 {
         let last = values.last().copied().unwrap();
         match heading(counts, values, known, 0.0) {
-            Heading::Limit(missing) | Heading::Assumed(missing) => last + missing,
+            Heading::Limit(missing) => last + missing,
             other => panic!("{other:?}"),
         }
     }
@@ -88,8 +88,6 @@ mod tests {
             let values = counts.map(|n| 3.0 + 5.0 * n.powf(-order));
             let found = limit(&counts, &values, None);
             assert!((found - 3.0).abs() < 1e-12, "{order}: {found}");
-            let two = limit(&counts[1..], &values[1..], Some(order));
-            assert!((two - 3.0).abs() < 1e-12, "{order}: {two}");
         }
     }
 
@@ -129,8 +127,20 @@ mod tests {
         }
         assert!(matches!(of(0.6, None), Heading::Limit(_)));
         assert_eq!(of(4.4, None), Heading::NotAsymptotic);
-        assert!(
-            matches!(heading(&counts[1..], &[1.0, 1.5], None, 0.0), Heading::Assumed(missing) if missing == 0.5)
-        );
+    }
+
+    /// The error of the finer of two levels is at most the whole change, where changes at least halve.
+    #[test]
+    fn two_levels_show_no_order_and_their_whole_change_covers_the_error() {
+        for order in [1.0_f64, 1.5, 2.0, 4.0] {
+            let counts = [16.0_f64, 32.0];
+            let values = counts.map(|n| 3.0 - 5.0 * n.powf(-order));
+            for known in [None, Some(order)] {
+                let found = heading(&counts, &values, known, 0.0);
+                let Heading::TwoLevels(missing) = found else { panic!("{found:?}") };
+                assert_eq!(missing, values[1] - values[0]);
+                assert!(3.0 - values[1] <= missing * (1.0 + 1e-12), "{order}");
+            }
+        }
     }
 }

@@ -38,8 +38,8 @@ pub enum Source {
 pub enum Convergence {
     /// With the order its levels show.
     Observed,
-    /// With an order that was taken for granted: two levels show none.
-    Assumed,
+    /// Two levels show none: the whole change from one to the other counts as the error of the finer.
+    TwoLevels,
     /// Its levels show no order that is plausible: they are not in the asymptotic range.
     NotAsymptotic,
     /// It has no limit: the largest pressure at a sharp edge or a tip grows with the number of cells without bound.
@@ -131,7 +131,7 @@ impl Reference {
                         let (missing, shown) = match heading(counts, &along, order, noise) {
                             Heading::Alone => continue,
                             Heading::Limit(missing) => (missing, Convergence::Observed),
-                            Heading::Assumed(missing) => (missing, Convergence::Assumed),
+                            Heading::TwoLevels(missing) => (missing, Convergence::TwoLevels),
                             Heading::NotAsymptotic => (0.0, Convergence::NotAsymptotic),
                         };
                         *part += missing;

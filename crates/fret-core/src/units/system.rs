@@ -56,8 +56,8 @@ impl Units {
 
     fn unit(units: Option<&Self>, kind: &str, dimension: Dimension) -> Option<String> {
         let kind = dimension.kind(kind);
-        let depends = ["length", "force", "pressure"].iter().any(|word| kind.contains(word));
-        units.filter(|_| depends).map(|units| units.of(kind))
+        let told = ["length", "force", "pressure", "rad", "degrees"].iter().any(|word| kind.contains(word));
+        units.filter(|_| told).map(|units| units.of(kind))
     }
 
     /// The name of a column, whose head may have a unit.

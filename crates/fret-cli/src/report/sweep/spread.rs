@@ -29,7 +29,7 @@ pub fn spread(view: &View) -> Markup {
     let parts: Vec<(String, &Quantities)> = points.chain(alone).collect();
     let all = parts.len();
     let body = html! {
-        p { (distributions(told)) }
+        p { (distributions(view, told)) }
         @if all > 1 { (bands(view, &parts)) }
         @for (name, quantities) in parts.iter().take(MOST_POINTS) {
             @if !name.is_empty() { h3 { (name) } }
@@ -52,7 +52,7 @@ fn place(view: &View, values: &BTreeMap<String, Value>) -> String {
 }
 
 /// Which keys were drawn, and from what.
-fn distributions(told: &SpreadRecord) -> String {
+fn distributions(view: &View, told: &SpreadRecord) -> String {
     let one = |(key, of): (&String, &Distribution)| {
         let parts: BTreeMap<String, BTreeMap<String, f64>> =
             serde_json::from_value(json!(of)).unwrap_or_default();
@@ -60,7 +60,10 @@ fn distributions(told: &SpreadRecord) -> String {
             let numbers = numbers.iter().map(|(name, value)| format!(", {name} {}", figure(*value)));
             kind.clone() + &numbers.collect::<String>()
         });
-        format!("{} ({})", called(key), words.collect::<String>())
+        let number = view.record.keys.iter().position(|known| known == key);
+        let unit = number.and_then(|number| view.key_label(number).unit);
+        let unit = unit.map_or_else(String::new, |unit| format!(" [{unit}]"));
+        format!("{}{unit} ({})", called(key), words.collect::<String>())
     };
     let keys: Vec<_> = told.distributions.iter().map(one).collect();
     format!("{} samples of {}.", told.count, keys.join("; "))

@@ -52,6 +52,7 @@ fn texts_beyond_any_case_are_refused_before_they_are_walked() {
         told(&nested(DEEPEST + 1), &[("tables nested deeper than 16", "nowhere")]);
     }
     told("[grid", &[("not readable as TOML", "")]);
+    told("size = [4e-3 0.0]", &[("not readable as TOML: a comma is missing between numbers", "4e-3 0.0")]);
 }
 
 #[test]

@@ -159,9 +159,10 @@ impl Question<'_> {
             let Some(cutoff) = cutoff else { continue };
             let size = self.size_for(judge, "short_cutoff and long_cutoff", measured.size)?;
             let counts = measured.points();
+            let repeats = self.is_period(size);
             let heights = &mut measured.heights;
             let points = [0, 1].map(|axis| cutoff.value * counts[axis] as f64 / size[axis]);
-            let smooth = gaussian::smoothed(heights, points);
+            let smooth = gaussian::smoothed(heights, points, repeats);
             if is_short {
                 *heights = smooth;
                 record.short_cutoff = Some(cutoff.value);
@@ -195,12 +196,21 @@ impl Question<'_> {
             from..from + side
         };
         let window = [window(0, begin), window(1, 0.0)];
-        Some(MeasuredSurface { heights: measured.heights, places: [x, y], window })
+        let repeats = if is_uneven { [false; 2] } else { self.is_period(size) };
+        Some(MeasuredSurface { heights: measured.heights, places: [x, y], window, repeats })
+    }
+
+    /// Whether a scan of this size is one period of the scene along x and along y: it goes on at its other end then.
+    fn is_period(&self, size: [f64; 2]) -> [bool; 2] {
+        let fits = |axis: usize| {
+            self.cells.size.is_some_and(|grid| (grid[axis] / size[axis] - 1.0).abs() <= SPACING)
+        };
+        [0, 1].map(|axis| self.cells.repeats[axis] && fits(axis))
     }
 
     /// Refuses points that are not the cells of the grid.
     fn are_cells(&self, judge: &mut Judge, measured: &Measured) -> Option<()> {
-        let Cells { count, size: grid } = self.cells;
+        let Cells { count, size: grid, .. } = self.cells;
         let (points, size) = (measured.points(), measured.size);
         let axes = if count[1] == 1 { 1 } else { 2 };
         let extent = size.map(|size| format!(" on {}", shown(size, axes))).unwrap_or_default();

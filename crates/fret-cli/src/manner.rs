@@ -1,0 +1,118 @@
+//! What every command takes that writes or prints results: where to, and how much is told.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::Args;
+use fret_core::history::{KeptFields, StepRecord};
+use fret_core::model::MirroredState;
+use fret_core::run::{Iteration, Observer};
+
+use crate::failure::{Failure, Unwritten};
+use crate::figures::{duration, figure};
+use crate::interrupt::go_on;
+use crate::terminal::{self, Answer};
+use fret_results::{folder_below, folder_for_answers, write_whole};
+
+/// Where an answer is written, and how much is told. What `out` is, a file or a folder, and where it is without, a command says in its own words.
+#[derive(Debug, Clone, Default, Args)]
+pub struct Manner {
+    /// Where the answer is written
+    #[arg(long, short, value_name = "PATH")]
+    pub out: Option<PathBuf>,
+    /// Print only errors
+    #[arg(long, short)]
+    pub quiet: bool,
+    /// Also tell every step, the files that are written and the time taken
+    #[arg(long, short, conflicts_with = "quiet")]
+    pub verbose: bool,
+}
+
+impl Manner {
+    /// That of what nobody watches.
+    pub const SILENT: Self = Self { out: None, quiet: true, verbose: false };
+
+    /// Says something beside the answer, unless only errors are wanted.
+    pub fn say(&self, text: &str) {
+        if !self.quiet {
+            terminal::say(text);
+        }
+    }
+
+    /// Says a step on the way, where all of them are wanted.
+    pub fn step(&self, text: impl FnOnce() -> String) {
+        if self.verbose {
+            terminal::say(&text());
+        }
+    }
+
+    /// Writes a file of the answer.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn write(&self, path: &Path, content: &[u8]) -> Result<(), Unwritten> {
+        write_whole(path, content)?;
+        self.wrote(path);
+        Ok(())
+    }
+
+    /// Tells of a file of the answer, written by others.
+    pub fn wrote(&self, path: &Path) {
+        self.step(|| format!("written: {}", path.display()));
+    }
+
+    /// Tells an answer to who asks; nothing for a person who wants only errors.
+    ///
+    /// # Errors
+    /// When standard output cannot be written.
+    pub fn tell(&self, answer: &Answer, as_json: bool, since: Instant) -> Result<(), Failure> {
+        if as_json || !self.quiet {
+            answer.tell(as_json)?;
+        }
+        self.step(|| format!("done in {}", duration(since.elapsed().as_secs_f64())));
+        Ok(())
+    }
+}
+
+/// The folder of an answer about a run: the one that is asked for, which an answer of this kind marks by a file, or one below the results.
+///
+/// # Errors
+/// When it cannot be made, or holds something else.
+pub fn place_of_answer(manner: &Manner, results: &Path, name: &str, mark: &str) -> Result<PathBuf, Failure> {
+    match &manner.out {
+        Some(folder) => Ok(folder_for_answers(folder, &[mark], "answers about a run")?),
+        None => Ok(folder_below(results, Path::new(name))?),
+    }
+}
+
+/// Stops a run when somebody asks to, and tells every increment where all steps are wanted.
+pub struct Steps<'a>(pub &'a Manner);
+
+impl Observer for Steps<'_> {
+    fn iterated(&mut self, _: &Iteration) -> ControlFlow<()> {
+        go_on()
+    }
+
+    fn solved(
+        &mut self,
+        record: &StepRecord,
+        _: MirroredState<'_>,
+        _: Option<&KeptFields>,
+    ) -> ControlFlow<()> {
+        self.0.step(|| {
+            format!(
+                "increment {}  force {}  max pressure {}  residual {:.1e}",
+                record.increment,
+                figure(record.normal_force),
+                figure(record.max_pressure),
+                record.residual.largest()
+            )
+        });
+        go_on()
+    }
+
+    fn leaves_fields(&self) -> bool {
+        false
+    }
+}
