@@ -5,7 +5,7 @@ use super::contact_problem::{ContactProblem, Pressure, Solution};
 use super::contact_set::ContactSet;
 use super::contact_vector::ContactVector;
 use super::laws::active_sets::ActiveSets;
-use super::laws::complementarity::{CellLaw, NormalResidual, normal_residual, tilted_residual};
+use super::laws::complementarity::{CellLaw, NormalResidual, normal_residual};
 use super::laws::friction::{FrictionBound, FrictionLaw, is_inside, slips};
 use super::laws::projection::{ShearProjection, project_pressure};
 use super::laws::rigid_motions::RigidMotions;
@@ -127,11 +127,8 @@ impl<'a> Iterate<'a> {
             let (pressure, displacement) = (&tractions.pressure, &displacements.normal);
             let approach = problem.normal.approach_under(pressure);
             let heights = (&displacement[..], problem.undeformed);
-            let law = CellLaw { self_influence: *own, hardness: problem.normal.hardness };
-            self.normal = match tilt {
-                None => normal_residual(pressure, heights, law, approach, gap),
-                Some(tilt) => tilted_residual(pressure, heights, law, (approach, tilt), gap),
-            };
+            let law = CellLaw::under(&problem.normal, *own);
+            self.normal = normal_residual(pressure, heights, law, (approach, tilt.as_ref()), gap);
             worst = self.normal.residual;
             let contact =
                 ContactSet::of(gap.len(), |cell| self.tractions.pressure[cell] > 0.0 || self.gap[cell] < 0.0);
