@@ -26,6 +26,14 @@ impl SurfaceResponse {
         }
     }
 
+    /// Coefficients or symbols zz, xx, yy, xy, zx, zy.
+    pub fn parts(&self) -> [&Option<Array2<f64>>; 6] {
+        match self {
+            Self::FreeSpace(c) => [&c.zz, &c.xx, &c.yy, &c.xy, &c.zx, &c.zy],
+            Self::Periodic(s) => [&s.zz, &s.xx, &s.yy, &s.xy, &s.zx, &s.zy],
+        }
+    }
+
     /// Whether the problem is periodic.
     pub fn is_periodic(&self) -> bool {
         matches!(self, Self::Periodic(_))

@@ -14,8 +14,6 @@ mod contact_vector;
 mod coupled;
 mod ends;
 mod energy;
-#[cfg(test)]
-mod few_cells;
 mod full_grid_check;
 mod globalisation;
 mod held_response;

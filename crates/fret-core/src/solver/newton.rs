@@ -8,6 +8,7 @@ use super::contact_set::ContactSet;
 use super::globalisation::{Backtracking, FAR, ForcingTerm};
 use super::iterate::Iterate;
 use super::laws::active_sets::ActiveSets;
+use super::laws::friction::FrictionBound;
 use super::laws::projection::ShearProjection;
 use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
@@ -111,12 +112,22 @@ pub fn make_shear_feasible(
     tractions: &mut Tractions,
     operators: &RegionOperators,
 ) {
+    let own = operators.compliance.self_influence().tangential;
+    project_shear(problem, tractions, |contact, shear, bound| {
+        ActiveSets::of(shear, &TangentialField::zeros(contact.len()), bound, own)
+    });
+}
+
+/// The same on the active sets of a contact, its shear and the bound of that.
+pub fn project_shear(
+    problem: &ContactProblem<'_>,
+    tractions: &mut Tractions,
+    sets: impl FnOnce(&ContactSet, &TangentialField, &FrictionBound) -> ActiveSets,
+) {
     let contact = ContactSet::loaded(&tractions.pressure);
     let bound = problem.friction.packed(&contact).bound(&contact.packed(&tractions.pressure));
     let mut shear = contact.packed_tangential(&tractions.shear);
-    let (at_rest, own) =
-        (TangentialField::zeros(contact.len()), operators.compliance.self_influence().tangential);
-    let sets = ActiveSets::of(&shear, &at_rest, &bound, own);
+    let sets = sets(&contact, &shear, &bound);
     let (motions, resultant) = (problem.motions_of(&contact), problem.to_restore(&shear, &bound.bound));
     ShearProjection::default().project(&mut shear, &sets, &bound.bound, &motions, resultant);
     contact.scatter_tangential(&shear, &mut tractions.shear);

@@ -1,4 +1,4 @@
-use super::super::few_cells::{Asked, Cells, tractions_of};
+use super::super::tests::few_cells::{Asked, Cells, tractions_of};
 use super::*;
 use crate::random::Random;
 

@@ -140,10 +140,7 @@ impl Preconditioner {
     ) -> Result<Self, ConvolutionError> {
         let OperatorSet { tangential, full, shear_axis, symmetry, single, .. } = operators;
         let (part, shape) = (shape, symmetry.whole_of(shape));
-        let [zz, xx, yy, xy] = match response {
-            SurfaceResponse::FreeSpace(c) => [&c.zz, &c.xx, &c.yy, &c.xy],
-            SurfaceResponse::Periodic(c) => [&c.zz, &c.xx, &c.yy, &c.xy],
-        };
+        let [zz, xx, yy, xy, ..] = response.parts();
         let missing = ConvolutionError::EmptyShape(0, 0);
         let symbol = |values: &Option<Array2<f64>>, parity: Parity| {
             let values = values.as_ref().ok_or(missing)?;

@@ -94,23 +94,22 @@ pub fn coarser_response(fine: &SurfaceResponse, cells: [usize; 2], wanted: Compo
     let Components { normal, tangential, coupling } = wanted;
     let is_wanted = [normal, tangential, tangential, tangential, coupling, coupling];
     let odd = [[false; 2], [false; 2], [false; 2], [true; 2], [true, false], [false, true]];
-    match fine {
-        SurfaceResponse::FreeSpace(c) => {
-            let fine = [&c.zz, &c.xx, &c.yy, &c.xy, &c.zx, &c.zy];
-            let coarse = |k: usize| {
-                fine[k].as_ref().filter(|_| is_wanted[k]).map(|values| coarser_coefficients(values, odd[k]))
-            };
-            let [zz, xx, yy, xy, zx, zy] = [0, 1, 2, 3, 4, 5].map(coarse);
-            SurfaceResponse::FreeSpace(InfluenceCoefficients { zz, xx, yy, xy, zx, zy })
-        }
-        SurfaceResponse::Periodic(s) => {
-            let fine = [&s.zz, &s.xx, &s.yy, &s.xy, &s.zx, &s.zy];
-            let coarse = |k: usize| {
-                fine[k].as_ref().filter(|_| is_wanted[k]).map(|values| coarser_symbols(values, cells, odd[k]))
-            };
-            let [zz, xx, yy, xy, zx, zy] = [0, 1, 2, 3, 4, 5].map(coarse);
-            SurfaceResponse::Periodic(PeriodicSymbols { zz, xx, yy, xy, zx, zy })
-        }
+    let is_periodic = fine.is_periodic();
+    let parts = fine.parts();
+    let [zz, xx, yy, xy, zx, zy] = [0, 1, 2, 3, 4, 5].map(|k| {
+        let coarser = |values| {
+            if is_periodic {
+                coarser_symbols(values, cells, odd[k])
+            } else {
+                coarser_coefficients(values, odd[k])
+            }
+        };
+        parts[k].as_ref().filter(|_| is_wanted[k]).map(coarser)
+    });
+    if is_periodic {
+        SurfaceResponse::Periodic(PeriodicSymbols { zz, xx, yy, xy, zx, zy })
+    } else {
+        SurfaceResponse::FreeSpace(InfluenceCoefficients { zz, xx, yy, xy, zx, zy })
     }
 }
 

@@ -37,10 +37,7 @@ impl Preconditioner {
             return Ok(self);
         }
         let shape = symmetry.whole_of(part);
-        let [zz, xx, yy, xy, zx, zy] = match response {
-            SurfaceResponse::FreeSpace(c) => [&c.zz, &c.xx, &c.yy, &c.xy, &c.zx, &c.zy],
-            SurfaceResponse::Periodic(c) => [&c.zz, &c.xx, &c.yy, &c.xy, &c.zx, &c.zy],
-        };
+        let [zz, xx, yy, xy, zx, zy] = response.parts();
         let symbol = |values: &Option<Array2<f64>>, number: usize| {
             let values = values.as_ref().ok_or(ConvolutionError::EmptyShape(0, 0))?;
             let is_symbol = response.is_periodic();
