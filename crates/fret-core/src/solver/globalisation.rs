@@ -1,7 +1,7 @@
-//! How far a Newton step is solved for, and how much of it is taken.
+//! How far a Newton step is solved for.
 
 /// A residual at which the active sets are not yet those of the solution.
-pub const FAR: f64 = 0.1;
+const FAR: f64 = 0.1;
 
 /// The forcing term of the inexact Newton method (Eisenstat & Walker 1996): relative residual of the linear problems. They are solved
 /// further while the residual falls fast, and while it does not fall.
@@ -57,35 +57,6 @@ impl ForcingTerm {
     }
 }
 
-/// Takes back by half a step that made things much worse.
-#[derive(Debug)]
-pub struct Backtracking {
-    residual: f64,
-    halvings: usize,
-}
-
-impl Default for Backtracking {
-    fn default() -> Self {
-        Self { residual: f64::INFINITY, halvings: 0 }
-    }
-}
-
-impl Backtracking {
-    /// A residual may grow by this: active sets change.
-    const GROWTH: f64 = 4.0;
-    const MOST_HALVINGS: usize = 4;
-
-    /// Whether the step that led to a residual is to be halved.
-    pub fn rejects(&mut self, residual: f64) -> bool {
-        if residual > Self::GROWTH * self.residual && self.halvings < Self::MOST_HALVINGS {
-            self.halvings += 1;
-            return true;
-        }
-        *self = Self { residual, halvings: 0 };
-        false
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -113,14 +84,5 @@ mod tests {
             far.next(0.5, 1e-8);
             assert!(!far.wants_double_precision());
         }
-    }
-
-    #[test]
-    fn a_step_that_makes_things_much_worse_is_halved_a_few_times() {
-        let mut backtracking = Backtracking::default();
-        assert!(!backtracking.rejects(1.0) && !backtracking.rejects(3.9));
-        let halved = (0..6).take_while(|_| backtracking.rejects(20.0)).count();
-        assert_eq!(halved, 4);
-        assert!(!backtracking.rejects(70.0)); // from where it was left
     }
 }

@@ -5,7 +5,7 @@
 
 use super::contact_problem::{ContactProblem, Pressure, Solution};
 use super::contact_set::ContactSet;
-use super::globalisation::{Backtracking, FAR, ForcingTerm};
+use super::globalisation::ForcingTerm;
 use super::iterate::Iterate;
 use super::laws::active_sets::ActiveSets;
 use super::laws::friction::FrictionBound;
@@ -16,8 +16,6 @@ use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
 use crate::model::TangentialField;
 
-/// Given up when so many iterations have not brought the residual below [`FAR`].
-const LOST_AFTER: usize = 15;
 /// Shear of slipping cells that a solution leaves inside its circles, by less than the tolerance, is put there so many times.
 const MOST_ROUNDS_TO_CIRCLES: usize = 3;
 /// Where the pressure is unknown, given up as well when so many iterations in a row have brought no residual smaller by a tenth: active sets
@@ -41,7 +39,6 @@ pub fn solve(
 ) -> Result<Solution, SolveError> {
     let mut iterate = Iterate::new(problem, tractions, displacements, operators);
     let mut forcing = ForcingTerm::default();
-    let mut backtracking = Backtracking::default();
     let mut circles_left = MOST_ROUNDS_TO_CIRCLES;
     operators.linear.begin();
     // Shear alone has no other way to be left to; in the staggered scheme it is half a step.
@@ -68,13 +65,8 @@ pub fn solve(
             }
             return Ok(iterate.solution(iteration));
         }
-        if backtracking.rejects(residual) {
-            iterate.go_halfway_back(operators);
-            continue;
-        }
         let target = forcing.next(residual, settings.tolerance);
-        let is_far = iteration >= LOST_AFTER && forcing.best > FAR;
-        if is_far || (has_another_resort && forcing.without_gain >= patience) {
+        if has_another_resort && forcing.without_gain >= patience {
             return Err(not_converged(iteration, &forcing));
         }
         if forcing.wants_double_precision() {
