@@ -26,6 +26,14 @@ impl SurfaceResponse {
         }
     }
 
+    /// Coefficients or symbols zz, xx, yy, xy, zx, zy.
+    pub fn parts(&self) -> [&Option<Array2<f64>>; 6] {
+        match self {
+            Self::FreeSpace(c) => [&c.zz, &c.xx, &c.yy, &c.xy, &c.zx, &c.zy],
+            Self::Periodic(s) => [&s.zz, &s.xx, &s.yy, &s.xy, &s.zx, &s.zy],
+        }
+    }
+
     /// Whether the problem is periodic.
     pub fn is_periodic(&self) -> bool {
         matches!(self, Self::Periodic(_))
@@ -37,7 +45,7 @@ pub(super) const fn block(output: usize, input: usize, kernel: usize, sign: f64)
 }
 
 /// Inputs and outputs z, x, y; kernels zz, xx, yy, xy, zx, zy. `u_x` from pressure is minus `u_z` from `q_x` (reciprocity of odd kernels).
-pub(crate) const FULL_BLOCKS: [Block; 9] = [
+pub(super) const FULL_BLOCKS: [Block; 9] = [
     block(0, 0, 0, 1.0),
     block(1, 1, 1, 1.0),
     block(2, 2, 2, 1.0),

@@ -19,9 +19,7 @@ use ndarray::Array2;
 use super::increment_problem::{IncrementProblem, Solved};
 use super::operators::RegionOperators;
 use super::region::Region;
-use super::settings::Coupling;
 use super::tractions::Displacements;
-use crate::compliance::SurfaceCompliance;
 use crate::model::ContactState;
 
 /// The state before an increment, under the surfaces and the bodies of now, in the cells of the region.
@@ -46,7 +44,7 @@ impl IncrementProblem<'_> {
     /// The state before, of surfaces that may have changed since. Where the bodies touched, its displacements are found by operators.
     pub fn state_before(&self, operators: Option<&mut RegionOperators>) -> StateBefore {
         let Self { region, state, .. } = self;
-        let found = operators.map(|operators| self.displacements_of_state(operators));
+        let found = operators.map(|operators| self.displacements_of_state(operators, true));
         let mut gap = Vec::with_capacity(region.len());
         let (mut opened, mut stored) = (0.0, 0.0);
         for cell in 0..region.len() {
@@ -69,22 +67,6 @@ impl IncrementProblem<'_> {
     fn tilted(&self, at: [usize; 2], tilt: [f64; 2]) -> f64 {
         let change = |axis: usize| tilt[axis] - self.state.tilt[axis];
         (0..2).map(|axis| change(axis) * (self.stretch.middle[axis] + self.grid.centre(axis, at[axis]))).sum()
-    }
-
-    /// Displacements of the tractions of the state before [length].
-    fn displacements_of_state(&self, operators: &mut RegionOperators) -> Displacements {
-        let mut moved = Displacements::zeros(self.region.len());
-        let pressure = self.region.gather(&self.state.pressure);
-        let shear = self.region.gather_tangential(&self.state.shear);
-        if self.coupling == Coupling::Coupled {
-            operators.compliance.full([&pressure, &shear.x, &shear.y], moved.parts_mut());
-            return moved;
-        }
-        operators.compliance.normal(&pressure, &mut moved.normal);
-        if shear.x.iter().chain(&shear.y).any(|q| *q != 0.0) {
-            operators.compliance.tangential(shear.parts(), moved.tangential.parts_mut());
-        }
-        moved
     }
 
     /// Adds to the energies of the state after an increment in which friction `dissipated` so much and the bulk stresses did the work

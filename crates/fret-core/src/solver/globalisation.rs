@@ -1,7 +1,4 @@
-//! How far a Newton step is solved for, and how much of it is taken.
-
-/// A residual at which the active sets are not yet those of the solution.
-pub const FAR: f64 = 0.1;
+//! How far a Newton step is solved for.
 
 /// The forcing term of the inexact Newton method (Eisenstat & Walker 1996): relative residual of the linear problems. They are solved
 /// further while the residual falls fast, and while it does not fall.
@@ -34,9 +31,6 @@ impl ForcingTerm {
     const ENOUGH: f64 = 0.8;
     /// An iteration does not pay when it leaves more than this of the residual.
     const NO_GAIN: f64 = 0.9;
-    /// After so many iterations without progress linear problems are to be solved in double precision, unless the solution is [`FAR`]:
-    /// then the active sets are what stands in the way.
-    const MAX_STALLED: i32 = 3;
 
     /// The forcing term after a residual.
     pub fn next(&mut self, residual: f64, tolerance: f64) -> f64 {
@@ -49,40 +43,6 @@ impl ForcingTerm {
             if ratio > 0.0 { (Self::GAMMA * ratio).clamp(Self::LEAST, Self::MOST) } else { Self::MOST };
         let wanted = falling * 0.1_f64.powi(self.stalled.min(6));
         wanted.max((Self::ENOUGH * tolerance / residual).min(Self::MOST))
-    }
-
-    /// Whether single precision may be what stands in the way.
-    pub fn wants_double_precision(&self) -> bool {
-        self.stalled >= Self::MAX_STALLED && self.last < FAR
-    }
-}
-
-/// Takes back by half a step that made things much worse.
-#[derive(Debug)]
-pub struct Backtracking {
-    residual: f64,
-    halvings: usize,
-}
-
-impl Default for Backtracking {
-    fn default() -> Self {
-        Self { residual: f64::INFINITY, halvings: 0 }
-    }
-}
-
-impl Backtracking {
-    /// A residual may grow by this: active sets change.
-    const GROWTH: f64 = 4.0;
-    const MOST_HALVINGS: usize = 4;
-
-    /// Whether the step that led to a residual is to be halved.
-    pub fn rejects(&mut self, residual: f64) -> bool {
-        if residual > Self::GROWTH * self.residual && self.halvings < Self::MOST_HALVINGS {
-            self.halvings += 1;
-            return true;
-        }
-        *self = Self { residual, halvings: 0 };
-        false
     }
 }
 
@@ -98,29 +58,11 @@ mod tests {
         assert_eq!(forcing.next(1e-5, 1e-8), 0.003);
         assert!((forcing.next(1e-5, 1e-8) - 0.03).abs() < 1e-15); // stalled: a tenth of 0.3
         assert!((forcing.next(1e-5, 1e-8) - 0.003).abs() < 1e-15);
-        assert!(!forcing.wants_double_precision());
-        forcing.next(1e-5, 1e-8);
-        assert!(forcing.wants_double_precision());
         // Near the tolerance no further than the next residual needs.
         assert!((forcing.next(4e-8, 1e-8) - 0.2).abs() < 1e-15);
         assert_eq!((forcing.best, forcing.without_gain), (4e-8, 0));
         forcing.next(5e-8, 1e-8);
         forcing.next(4e-8, 1e-8);
         assert_eq!((forcing.best, forcing.without_gain), (4e-8, 2));
-        // Far from the solution a stall says nothing of precision.
-        let mut far = ForcingTerm::default();
-        for _ in 0..6 {
-            far.next(0.5, 1e-8);
-            assert!(!far.wants_double_precision());
-        }
-    }
-
-    #[test]
-    fn a_step_that_makes_things_much_worse_is_halved_a_few_times() {
-        let mut backtracking = Backtracking::default();
-        assert!(!backtracking.rejects(1.0) && !backtracking.rejects(3.9));
-        let halved = (0..6).take_while(|_| backtracking.rejects(20.0)).count();
-        assert_eq!(halved, 4);
-        assert!(!backtracking.rejects(70.0)); // from where it was left
     }
 }

@@ -149,13 +149,12 @@ impl ContactSolver<'_> {
         };
         self.work += operators.take_work(region.len() as f64 / self.cells_of_whole());
         let influence = operators.compliance.self_influence();
-        let (self_influence, law) =
-            (influence.tangential, CellLaw { self_influence: influence.normal, hardness: self.hardness });
         self.operators = Some(operators);
         self.memory.region = Some(region);
         let mut solved = solved?;
+        let law = CellLaw::under(&increment.normal.with_hardness(self.hardness), influence.normal);
         solved.give_way(law, self.settings.tolerance);
-        let rule = (self_influence, self.settings.integration);
+        let rule = (influence.tangential, self.settings.integration);
         let mut work = by_cell();
         let (after, outcome) = state_after(&increment, &solved, &before, rule, work.as_mut());
         increment.take_rate_since_touch(&mut solved);

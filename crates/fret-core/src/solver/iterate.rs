@@ -5,7 +5,7 @@ use super::contact_problem::{ContactProblem, Pressure, Solution};
 use super::contact_set::ContactSet;
 use super::contact_vector::ContactVector;
 use super::laws::active_sets::ActiveSets;
-use super::laws::complementarity::{CellLaw, NormalResidual, normal_residual, tilted_residual};
+use super::laws::complementarity::{CellLaw, NormalResidual, normal_residual};
 use super::laws::friction::{FrictionBound, FrictionLaw, is_inside, slips};
 use super::laws::projection::{ShearProjection, project_pressure};
 use super::laws::rigid_motions::RigidMotions;
@@ -28,8 +28,6 @@ pub struct Iterate<'a> {
     problem: &'a ContactProblem<'a>,
     tractions: &'a mut Tractions,
     displacements: &'a mut Displacements,
-    /// Those before the last step.
-    last: Tractions,
     /// Self-influence of a cell, normal and tangential [length/pressure].
     self_influence: [f64; 2],
     contact: ContactSet,
@@ -43,8 +41,6 @@ pub struct Iterate<'a> {
     tangential: TangentialResidual,
     slip: SlipIncrement,
     sets: ActiveSets,
-    /// The contact for which `sets` were found.
-    contact_of_sets: ContactSet,
     step: ContactVector<f64>,
     packed: Packed,
     projection: ShearProjection,
@@ -86,7 +82,6 @@ impl<'a> Iterate<'a> {
         let motions = problem.motions_of(&contact);
         let mut iterate = Self {
             problem,
-            last: Tractions::default(),
             tractions,
             displacements,
             self_influence: [own.normal, own.tangential],
@@ -99,7 +94,6 @@ impl<'a> Iterate<'a> {
             tangential: TangentialResidual { motion: [0.0; 3], residual: 0.0 },
             slip: SlipIncrement::default(),
             sets: ActiveSets::default(),
-            contact_of_sets: ContactSet::default(),
             step: ContactVector::default(),
             packed: Packed::default(),
             projection: ShearProjection::default(),
@@ -127,11 +121,8 @@ impl<'a> Iterate<'a> {
             let (pressure, displacement) = (&tractions.pressure, &displacements.normal);
             let approach = problem.normal.approach_under(pressure);
             let heights = (&displacement[..], problem.undeformed);
-            let law = CellLaw { self_influence: *own, hardness: problem.normal.hardness };
-            self.normal = match tilt {
-                None => normal_residual(pressure, heights, law, approach, gap),
-                Some(tilt) => tilted_residual(pressure, heights, law, (approach, tilt), gap),
-            };
+            let law = CellLaw::under(&problem.normal, *own);
+            self.normal = normal_residual(pressure, heights, law, (approach, tilt.as_ref()), gap);
             worst = self.normal.residual;
             let contact =
                 ContactSet::of(gap.len(), |cell| self.tractions.pressure[cell] > 0.0 || self.gap[cell] < 0.0);
@@ -161,7 +152,6 @@ impl<'a> Iterate<'a> {
             self.sets.direct(&mut packed.shear, &packed.bound.bound);
         }
         self.sets.turn(&packed.path, &slip.slip);
-        self.contact_of_sets.clone_from(&self.contact);
     }
 
     /// The step that solves the linearised problem to the forcing term.
@@ -219,9 +209,7 @@ impl<'a> Iterate<'a> {
             law.find_bound(pressure, bound);
         }
         self.project_shear(resultant);
-        let Self { contact, packed, tractions, last, .. } = self;
-        std::mem::swap(last, *tractions);
-        tractions.reset(last.pressure.len());
+        let Self { contact, packed, tractions, .. } = self;
         contact.scatter(&packed.pressure, 1.0, &mut tractions.pressure);
         contact.scatter_tangential(&packed.shear, &mut tractions.shear);
         true
@@ -270,38 +258,11 @@ impl<'a> Iterate<'a> {
         }
     }
 
-    /// To the middle between here and where the last step began, with the contact of then; what slipped there is put back on its circle.
-    pub fn go_halfway_back(&mut self, operators: &mut RegionOperators) {
-        self.tractions.average_with(&self.last);
-        if self.contact != self.contact_of_sets {
-            self.change_contact(self.contact_of_sets.clone());
-        }
-        let Self { contact, packed, tractions, .. } = self;
-        contact.pack(&tractions.pressure, &mut packed.pressure);
-        contact.pack_tangential(&tractions.shear, &mut packed.shear);
-        packed.law.find_bound(&packed.pressure, &mut packed.bound);
-        let resultant = self.problem.to_restore(&packed.shear, &packed.bound.bound);
-        self.project_shear(resultant);
-        self.contact.scatter_tangential(&self.packed.shear, &mut self.tractions.shear);
-        self.find_displacements(operators);
-    }
-
     pub fn solution(self, iterations: usize) -> Solution {
         let Self {
-            tractions,
-            contact,
-            normal,
-            tangential,
-            gap,
-            slip,
-            last,
-            sets,
-            step,
-            packed,
-            projection,
-            ..
+            tractions, contact, normal, tangential, gap, slip, sets, step, packed, projection, ..
         } = self;
-        drop((last, sets, step, packed, projection)); // before memory for the next fields is taken
+        drop((sets, step, packed, projection)); // before memory for the next fields is taken
         let scattered = |packed: TangentialField| {
             let mut field = TangentialField::zeros(tractions.pressure.len());
             contact.scatter_tangential(&packed, &mut field);
@@ -311,6 +272,3 @@ impl<'a> Iterate<'a> {
         Solution { normal, tangential, gap, slip, end_slip, iterations }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,7 +1,6 @@
 //! The tractions of the last cycle, from which the increments of surfaces that move start: a cycle goes between the same loads as the one before
 //! it, and wear changes little from one to the next.
 
-use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
 use super::region::Region;
@@ -42,14 +41,8 @@ impl LastCycle {
         (region, cells): (Region, [usize; 2]),
     ) -> Option<Tractions> {
         let passed = self.increments.iter().find(|passed| passed.goes(loads))?;
-        if passed.region == region {
-            return Some(passed.tractions.clone());
-        }
-        let [pressure, x, y] = passed.tractions.parts().map(|part| {
-            let mut field = Array2::zeros(cells);
-            passed.region.place(part, &mut field);
-            region.gather(&field)
-        });
+        let [pressure, x, y] =
+            passed.tractions.parts().map(|part| region.taken((passed.region, part), cells));
         Some(Tractions { pressure, shear: TangentialField { x, y } })
     }
 

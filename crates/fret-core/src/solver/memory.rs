@@ -77,18 +77,9 @@ pub(super) struct Drift {
 impl Drift {
     /// In the cells of a region of a grid.
     pub fn on(&self, cells: [usize; 2], region: Region) -> TangentialField {
-        match self.region {
-            None => TangentialField::zeros(region.len()),
-            Some(own) if own == region => self.field.clone(),
-            Some(own) => {
-                let [x, y] = self.field.parts().map(|part| {
-                    let mut field = Array2::zeros(cells);
-                    own.place(part, &mut field);
-                    region.gather(&field)
-                });
-                TangentialField { x, y }
-            }
-        }
+        let Some(own) = self.region else { return TangentialField::zeros(region.len()) };
+        let [x, y] = self.field.parts().map(|part| region.taken((own, part), cells));
+        TangentialField { x, y }
     }
 
     /// The same with its fields carried over a grid.

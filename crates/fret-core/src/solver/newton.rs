@@ -5,9 +5,10 @@
 
 use super::contact_problem::{ContactProblem, Pressure, Solution};
 use super::contact_set::ContactSet;
-use super::globalisation::{Backtracking, FAR, ForcingTerm};
+use super::globalisation::ForcingTerm;
 use super::iterate::Iterate;
 use super::laws::active_sets::ActiveSets;
+use super::laws::friction::FrictionBound;
 use super::laws::projection::ShearProjection;
 use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
@@ -15,8 +16,6 @@ use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
 use crate::model::TangentialField;
 
-/// Given up when so many iterations have not brought the residual below [`FAR`].
-const LOST_AFTER: usize = 15;
 /// Shear of slipping cells that a solution leaves inside its circles, by less than the tolerance, is put there so many times.
 const MOST_ROUNDS_TO_CIRCLES: usize = 3;
 /// Where the pressure is unknown, given up as well when so many iterations in a row have brought no residual smaller by a tenth: active sets
@@ -40,9 +39,7 @@ pub fn solve(
 ) -> Result<Solution, SolveError> {
     let mut iterate = Iterate::new(problem, tractions, displacements, operators);
     let mut forcing = ForcingTerm::default();
-    let mut backtracking = Backtracking::default();
     let mut circles_left = MOST_ROUNDS_TO_CIRCLES;
-    operators.linear.begin();
     // Shear alone has no other way to be left to; in the staggered scheme it is half a step.
     let patience = match (operators.preconditioner.is_stiff(), operators.preconditioner.is_in_period()) {
         (false, _) => LOST_WITHOUT_GAIN,
@@ -50,10 +47,6 @@ pub fn solve(
         (true, true) => LOST_WITHOUT_GAIN_IN_STIFF_PERIOD,
     };
     let has_another_resort = problem.pressure == Pressure::Unknown;
-    if problem.give() != [0.0; 3] {
-        // Beside a compliant rig single precision would lose the contact's own displacement.
-        operators.linear.avoid_single_precision();
-    }
     for iteration in 0..settings.max_newton_iterations {
         let residual = iterate.evaluate();
         if callback(iteration, residual).is_break() {
@@ -67,17 +60,9 @@ pub fn solve(
             }
             return Ok(iterate.solution(iteration));
         }
-        if backtracking.rejects(residual) {
-            iterate.go_halfway_back(operators);
-            continue;
-        }
         let target = forcing.next(residual, settings.tolerance);
-        let is_far = iteration >= LOST_AFTER && forcing.best > FAR;
-        if is_far || (has_another_resort && forcing.without_gain >= patience) {
+        if has_another_resort && forcing.without_gain >= patience {
             return Err(not_converged(iteration, &forcing));
-        }
-        if forcing.wants_double_precision() {
-            operators.linear.avoid_single_precision();
         }
         iterate.find_sets();
         iterate.find_step(target, settings, operators);
@@ -111,12 +96,22 @@ pub fn make_shear_feasible(
     tractions: &mut Tractions,
     operators: &RegionOperators,
 ) {
+    let own = operators.compliance.self_influence().tangential;
+    project_shear(problem, tractions, |contact, shear, bound| {
+        ActiveSets::of(shear, &TangentialField::zeros(contact.len()), bound, own)
+    });
+}
+
+/// The same on the active sets of a contact, its shear and the bound of that.
+pub fn project_shear(
+    problem: &ContactProblem<'_>,
+    tractions: &mut Tractions,
+    sets: impl FnOnce(&ContactSet, &TangentialField, &FrictionBound) -> ActiveSets,
+) {
     let contact = ContactSet::loaded(&tractions.pressure);
     let bound = problem.friction.packed(&contact).bound(&contact.packed(&tractions.pressure));
     let mut shear = contact.packed_tangential(&tractions.shear);
-    let (at_rest, own) =
-        (TangentialField::zeros(contact.len()), operators.compliance.self_influence().tangential);
-    let sets = ActiveSets::of(&shear, &at_rest, &bound, own);
+    let sets = sets(&contact, &shear, &bound);
     let (motions, resultant) = (problem.motions_of(&contact), problem.to_restore(&shear, &bound.bound));
     ShearProjection::default().project(&mut shear, &sets, &bound.bound, &motions, resultant);
     contact.scatter_tangential(&shear, &mut tractions.shear);

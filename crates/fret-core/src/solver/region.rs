@@ -123,6 +123,16 @@ impl Region {
         }
     }
 
+    /// The same part of a grid of `cells` from the field of another one, zero outside of that.
+    pub fn taken(&self, (from, field): (Self, &[f64]), cells: [usize; 2]) -> Vec<f64> {
+        if from == *self {
+            return field.to_vec();
+        }
+        let mut whole = Array2::zeros(cells);
+        from.place(field, &mut whole);
+        self.gather(&whole)
+    }
+
     /// Whether a cell of the grid lies inside.
     pub fn contains(&self, i: usize, j: usize) -> bool {
         let [rows, columns] = self.ranges();

@@ -26,7 +26,7 @@ impl IncrementProblem<'_> {
         operators: &mut RegionOperators,
     ) -> Cow<'b, TangentialField> {
         let before = last.map_or_else(
-            || Cow::Owned(self.displacement_of_state(operators)),
+            || Cow::Owned(self.displacements_of_state(operators, false).tangential),
             |last| Cow::Borrowed(&last.tangential),
         );
         if self.stretch.is_none() && self.carried.is_none() {
@@ -47,17 +47,34 @@ impl IncrementProblem<'_> {
         Cow::Owned(before)
     }
 
-    /// Tangential displacement of the tractions of the state before [length].
-    fn displacement_of_state(&self, operators: &mut RegionOperators) -> TangentialField {
+    /// Displacements of the tractions of the state before [length]; uncoupled ones along the normal where these are `wanted`.
+    pub fn displacements_of_state(&self, operators: &mut RegionOperators, wanted: bool) -> Displacements {
+        let pressure = self.region.gather(&self.state.pressure);
+        let TangentialField { x, y } = self.region.gather_tangential(&self.state.shear);
         let mut moved = Displacements::zeros(self.region.len());
-        let shear = self.region.gather_tangential(&self.state.shear);
-        if self.coupling == Coupling::Coupled && self.touched() {
-            let pressure = self.region.gather(&self.state.pressure);
-            operators.compliance.full([&pressure, &shear.x, &shear.y], moved.parts_mut());
-        } else if shear.x.iter().chain(&shear.y).any(|q| *q != 0.0) {
-            operators.compliance.tangential(shear.parts(), moved.tangential.parts_mut());
+        if wanted && self.coupling != Coupling::Coupled {
+            operators.compliance.normal(&pressure, &mut moved.normal);
         }
-        moved.tangential
+        self.displace([&pressure, &x, &y], operators, &mut moved);
+        moved
+    }
+
+    /// Displacements of tractions, along the surface alone where the two are uncoupled [length].
+    fn displace(
+        &self,
+        tractions: [&[f64]; 3],
+        operators: &mut RegionOperators,
+        displacements: &mut Displacements,
+    ) {
+        let [pressure, x, y] = tractions;
+        let is_any = |field: &[f64]| field.iter().any(|traction| *traction != 0.0);
+        if self.coupling == Coupling::Coupled {
+            if is_any(pressure) {
+                operators.compliance.full(tractions, displacements.parts_mut());
+            }
+        } else if is_any(x) || is_any(y) {
+            operators.compliance.tangential([x, y], displacements.tangential.parts_mut());
+        }
     }
 
     /// Displacement from which the law counts slip.
@@ -126,11 +143,7 @@ impl IncrementProblem<'_> {
         let pressure = change(&state.pressure, &before.tractions.pressure);
         let [x, y] = [0, 1].map(|axis| change(&state.shear[axis], &before.tractions.shear[axis]));
         let mut moved = Displacements::zeros(region.len());
-        if self.coupling == Coupling::Coupled {
-            operators.compliance.full([&pressure, &x, &y], moved.parts_mut());
-        } else {
-            operators.compliance.tangential([&x, &y], moved.tangential.parts_mut());
-        }
+        self.displace([&pressure, &x, &y], operators, &mut moved);
         let [shift_x, shift_y, twist] = drift.motion;
         let mut found = moved.tangential;
         for cell in 0..region.len() {

@@ -2,7 +2,7 @@
 
 use super::contact_problem::{Pressure, Solution};
 use super::increment_problem::{IncrementProblem, Solved};
-use super::laws::complementarity::{CellLaw, normal_residual, tilted_residual};
+use super::laws::complementarity::{CellLaw, normal_residual};
 use super::laws::limit::sliding_fraction;
 use super::laws::projection::project_pressure;
 use super::newton;
@@ -113,13 +113,10 @@ fn pressure_before(
 ) -> NormalSolution {
     let IncrementProblem { undeformed, normal, .. } = increment;
     let self_influence = operators.compliance.self_influence().normal;
-    let law = CellLaw { self_influence, hardness: normal.hardness };
-    let mut gap = Vec::new();
-    let approach = normal.approach_under(&tractions.pressure);
+    let (mut gap, tilt) = (Vec::new(), increment.tilt_motions());
     let (pressure, heights) = (&tractions.pressure, (&displacements.normal[..], &undeformed[..]));
-    let residual = match increment.tilt_motions() {
-        None => normal_residual(pressure, heights, law, approach, &mut gap),
-        Some(tilt) => tilted_residual(pressure, heights, law, (approach, &tilt), &mut gap),
-    };
+    let motions = (normal.approach_under(pressure), tilt.as_ref());
+    let law = CellLaw::under(normal, self_influence);
+    let residual = normal_residual(pressure, heights, law, motions, &mut gap);
     NormalSolution { residual, gap, iterations: 0 }
 }

@@ -1,3 +1,5 @@
+pub(super) mod few_cells;
+
 use std::ops::ControlFlow;
 
 use super::*;

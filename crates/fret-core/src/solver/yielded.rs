@@ -72,14 +72,16 @@ impl Solved {
     /// Cells at the hardness give way by what they overlap. What a tolerance of the residual cannot tell from nothing is left, so that surfaces
     /// that are loaded again as before do not creep.
     pub(super) fn give_way(&mut self, law: CellLaw, tolerance: f64) {
-        let Some(hardness) = law.hardness else { return };
+        let CellLaw { self_influence: own, hardness } = law;
+        if hardness.is_infinite() {
+            return;
+        }
         let Self { tractions, displacements, solution, .. } = self;
         let (pressure, gap) = (&tractions.pressure, &mut solution.gap);
         let load = sum(pressure);
         if load <= 0.0 {
             return;
         }
-        let own = law.self_influence;
         let cells = pressure.iter().filter(|p| **p > 0.0).count();
         let mean = dot(pressure, &displacements.normal) / load;
         let least = tolerance * length_scale(mean, [own, load / cells as f64], solution.normal.approach);

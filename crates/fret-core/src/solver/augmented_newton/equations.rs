@@ -3,10 +3,11 @@
 use super::super::contact_problem::ContactProblem;
 use super::super::contact_set::ContactSet;
 use super::super::laws::active_sets::ActiveSets;
-use super::super::laws::projection::{ShearProjection, project_pressure};
+use super::super::laws::projection::project_pressure;
 use super::super::laws::rigid_motions::RigidMotions;
 use super::super::laws::slip::{SlipIncrement, TangentialProblem};
 use super::super::laws::tilt_motions::TiltMotions;
+use super::super::newton;
 use super::super::operators::RegionOperators;
 use super::super::tractions::{Displacements, Tractions};
 use super::point::Point;
@@ -185,17 +186,13 @@ impl<'a> Equations<'a> {
         if !project_pressure(&mut tractions.pressure, problem.normal.total, self.tilt.as_ref()) {
             return false;
         }
-        let contact = ContactSet::loaded(&tractions.pressure);
-        let bound = problem.friction.packed(&contact).bound(&contact.packed(&tractions.pressure));
-        let mut trial = TangentialField::zeros(contact.len());
-        for (place, cell) in contact.cells().enumerate() {
-            trial.set(place, self.at(point, cell).trial);
-        }
-        let sets = ActiveSets::of_trial(&trial, &bound, *own);
-        let mut shear = contact.packed_tangential(&tractions.shear);
-        let (motions, resultant) = (problem.motions_of(&contact), problem.to_restore(&shear, &bound.bound));
-        ShearProjection::default().project(&mut shear, &sets, &bound.bound, &motions, resultant);
-        contact.scatter_tangential(&shear, &mut tractions.shear);
+        newton::project_shear(problem, tractions, |contact, _, bound| {
+            let mut trial = TangentialField::zeros(contact.len());
+            for (place, cell) in contact.cells().enumerate() {
+                trial.set(place, self.at(point, cell).trial);
+            }
+            ActiveSets::of_trial(&trial, bound, *own)
+        });
         true
     }
 }

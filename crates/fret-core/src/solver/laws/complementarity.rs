@@ -1,6 +1,7 @@
 //! Complementarity of gap and pressure: `g >= 0`, `p >= 0`, `g p = 0` (Signorini). Of surfaces that yield at a hardness `H`: `0 <= p <= H`,
 //! with `g >= 0` where `p = 0`, `g <= 0` where `p = H`, and `g = 0` between. Its residual, for every way of solving.
 
+use super::super::prescribed::NormalLoad;
 use super::tilt_motions::TiltMotions;
 use crate::fields::{CellRule, CellSize, Reals, each_cell, largest_of, lower, reset};
 
@@ -22,8 +23,15 @@ pub struct NormalResidual {
 pub struct CellLaw {
     /// Displacement of a cell by its own pressure [length/pressure].
     pub self_influence: f64,
-    /// The pressure at which the surfaces yield [pressure]; `None`: they do not.
-    pub hardness: Option<f64>,
+    /// The pressure at which the surfaces yield [pressure]; infinite where they do not.
+    pub hardness: f64,
+}
+
+impl CellLaw {
+    /// Of a cell of this self-influence [length/pressure] under a load.
+    pub fn under(load: &NormalLoad, self_influence: f64) -> Self {
+        Self { self_influence, hardness: load.hardness.unwrap_or(f64::INFINITY) }
+    }
 }
 
 /// Nearer to the hardness than this fraction of it a pressure is at the hardness.
@@ -35,19 +43,27 @@ pub fn yields_from(hardness: f64) -> f64 {
 }
 
 /// Evaluates pressures, from normal displacements and the undeformed gap; finds the gap. Without a prescribed `approach` it is the mean
-/// height of the loaded cells, of those below the hardness where there are any.
+/// height of the loaded cells, of those below the hardness where there are any; where a moment of the pressure is prescribed, approach and `tilt`
+/// are those of the plane nearest to the heights of the loaded cells.
 pub fn normal_residual(
     pressure: &[f64],
     (displacement, undeformed): (&[f64], &[f64]),
     law: CellLaw,
-    approach: Option<f64>,
+    (approach, tilt): (Option<f64>, Option<&TiltMotions>),
     gap: &mut Vec<f64>,
 ) -> NormalResidual {
+    if let Some(tilt) = tilt {
+        let loaded = |cell: usize| f64::from(u8::from(pressure[cell] > 0.0));
+        let (turned, level) = tilt.turn(loaded, (displacement, undeformed, approach.unwrap_or(0.0)));
+        let found = normal_residual(pressure, (displacement, &level), law, (approach, None), gap);
+        return NormalResidual { turned, ..found };
+    }
     let turned = [0.0; 2];
     reset(gap, pressure.len());
     let read = [pressure, displacement, undeformed];
     let [load, cells, heights, work, undeformed_work] = each_cell(&Loads, read, [gap]);
-    let approach = approach.or_else(|| height_below(law.hardness?, pressure, gap));
+    let approach = approach
+        .or_else(|| if law.hardness.is_finite() { height_below(law.hardness, pressure, gap) } else { None });
     if load <= 0.0 {
         let lowest = gap.iter().copied().fold(f64::INFINITY, f64::min);
         let approach = approach.unwrap_or(lowest);
@@ -78,11 +94,7 @@ pub fn length_scale(mean_displacement: f64, [self_influence, mean_pressure]: [f6
 
 /// Largest `|max(K (p - H), min(g, K p))|` over the cells [length], K being the self-influence and H the hardness.
 pub fn violation(gap: &[f64], pressure: &[f64], law: CellLaw) -> f64 {
-    let CellLaw { self_influence, hardness } = law;
-    match hardness {
-        None => largest_of(&Violation { self_influence }, [gap, pressure]),
-        Some(hardness) => largest_of(&ViolationOfYielding { self_influence, hardness }, [gap, pressure]),
-    }
+    largest_of(&Violation(law), [gap, pressure])
 }
 
 /// Mean height [length] of the loaded cells below the hardness; where none is, the largest of all loaded ones, which just touches. `None` where
@@ -122,45 +134,16 @@ impl CellRule<3, 1, 5> for Loads {
     }
 }
 
-/// `|min(g, K p)|`.
-struct Violation {
-    self_influence: f64,
-}
+/// `|max(K (p - H), min(g, K p))|`.
+struct Violation(CellLaw);
 
 impl CellSize<2> for Violation {
     #[inline(always)]
     fn of<R: Reals>(&self, [gap, p]: [R; 2]) -> R {
-        let off = gap.min(p * self.self_influence);
+        let CellLaw { self_influence, hardness } = self.0;
+        let off = gap.min(p * self_influence).max((p - hardness) * self_influence);
         off.max(off * -1.0)
     }
-}
-
-/// `|max(K (p - H), min(g, K p))|`.
-struct ViolationOfYielding {
-    self_influence: f64,
-    hardness: f64,
-}
-
-impl CellSize<2> for ViolationOfYielding {
-    #[inline(always)]
-    fn of<R: Reals>(&self, [gap, p]: [R; 2]) -> R {
-        let off = gap.min(p * self.self_influence).max((p - self.hardness) * self.self_influence);
-        off.max(off * -1.0)
-    }
-}
-
-/// The same where a moment of the pressure is prescribed: approach and tilt are those of the plane nearest to the heights of the loaded cells.
-pub fn tilted_residual(
-    pressure: &[f64],
-    (displacement, undeformed): (&[f64], &[f64]),
-    law: CellLaw,
-    (approach, tilt): (Option<f64>, &TiltMotions),
-    gap: &mut Vec<f64>,
-) -> NormalResidual {
-    let loaded = |cell: usize| f64::from(u8::from(pressure[cell] > 0.0));
-    let (turned, level) = tilt.turn(loaded, (displacement, undeformed, approach.unwrap_or(0.0)));
-    let found = normal_residual(pressure, (displacement, &level), law, approach, gap);
-    NormalResidual { turned, ..found }
 }
 
 #[cfg(test)]
@@ -168,7 +151,7 @@ mod tests {
     use super::*;
 
     fn elastic(self_influence: f64) -> CellLaw {
-        CellLaw { self_influence, hardness: None }
+        CellLaw { self_influence, hardness: f64::INFINITY }
     }
 
     /// Two loaded cells at one height, an open one above: complementary. A cell in tension, an overlap, a loaded cell that is open:
@@ -177,7 +160,13 @@ mod tests {
     fn every_kind_of_violation_is_seen() {
         let undeformed = [0.0, 0.0, 5.0];
         let residual = |pressure: [f64; 3], displacement: [f64; 3], approach| {
-            normal_residual(&pressure, (&displacement, &undeformed), elastic(0.5), approach, &mut Vec::new())
+            normal_residual(
+                &pressure,
+                (&displacement, &undeformed),
+                elastic(0.5),
+                (approach, None),
+                &mut Vec::new(),
+            )
         };
         // Mean displacement under the load: 2.
         assert_eq!(
@@ -193,8 +182,14 @@ mod tests {
     #[test]
     fn flat_surfaces_that_are_not_displaced_have_a_residual() {
         let residual = |undeformed: [f64; 2]| {
-            normal_residual(&[2.0, 2.0], (&[0.0; 2], &undeformed), elastic(0.5), None, &mut Vec::new())
-                .residual
+            normal_residual(
+                &[2.0, 2.0],
+                (&[0.0; 2], &undeformed),
+                elastic(0.5),
+                (None, None),
+                &mut Vec::new(),
+            )
+            .residual
         };
         assert_eq!(residual([0.0; 2]), 0.0);
         // Half of the difference is the gap; the scale is 1e-5 times 0.5 times 2.
@@ -204,8 +199,9 @@ mod tests {
     #[test]
     fn bodies_apart_are_complementary_and_bodies_through_each_other_are_not() {
         let mut gap = Vec::new();
-        let mut residual =
-            |approach| normal_residual(&[0.0; 2], (&[0.0; 2], &[1.0, 2.0]), elastic(1.0), approach, &mut gap);
+        let mut residual = |approach| {
+            normal_residual(&[0.0; 2], (&[0.0; 2], &[1.0, 2.0]), elastic(1.0), (approach, None), &mut gap)
+        };
         assert_eq!(residual(Some(1.5)).residual, 1.0);
         // Without a prescribed approach bodies apart just touch.
         assert_eq!(residual(None), NormalResidual { approach: 1.0, turned: [0.0; 2], residual: 0.0 });
@@ -223,7 +219,7 @@ mod tests {
                 &read.0,
                 (&read.1, &read.2),
                 elastic(1e-3),
-                Some(1.0 + displacement),
+                (Some(1.0 + displacement), None),
                 &mut Vec::new(),
             )
             .residual
@@ -237,8 +233,14 @@ mod tests {
     #[test]
     fn a_load_that_moves_nothing_is_measured_by_the_self_influence() {
         let residual = |gap: f64| {
-            normal_residual(&[1.0, 1.0], (&[0.0; 2], &[0.0, gap]), elastic(1.0), Some(0.0), &mut Vec::new())
-                .residual
+            normal_residual(
+                &[1.0, 1.0],
+                (&[0.0; 2], &[0.0, gap]),
+                elastic(1.0),
+                (Some(0.0), None),
+                &mut Vec::new(),
+            )
+            .residual
         };
         assert_eq!(residual(0.0), 0.0);
         assert!(residual(1e-3) > 1.0 && residual(1e-3).is_finite(), "{}", residual(1e-3));
@@ -248,9 +250,9 @@ mod tests {
     /// the height of those below it.
     #[test]
     fn what_yields_may_overlap_and_bears_no_more_than_the_hardness() {
-        let law = CellLaw { self_influence: 0.5, hardness: Some(4.0) };
+        let law = CellLaw { self_influence: 0.5, hardness: 4.0 };
         let residual = |pressure: [f64; 3], displacement: [f64; 3], approach| {
-            normal_residual(&pressure, (&displacement, &[0.0; 3]), law, approach, &mut Vec::new())
+            normal_residual(&pressure, (&displacement, &[0.0; 3]), law, (approach, None), &mut Vec::new())
         };
         let solved = residual([4.0, 1.0, 0.0], [1.0, 2.0, 5.0], None);
         assert_eq!(solved, NormalResidual { approach: 2.0, turned: [0.0; 2], residual: 0.0 });

@@ -4,7 +4,7 @@
 //! Measured on a coating 1e3 times stiffer than the half-space below: the contact, begun a little too large, shrinks in two
 //! to four changes; it need not in general (rough surfaces cycle), so it gives up when its violations stop falling.
 
-use super::super::laws::complementarity::{NormalResidual, length_scale, violation};
+use super::super::laws::complementarity::{CellLaw, NormalResidual, length_scale, violation};
 use super::super::settings::SolveError;
 use super::problem::{Ending, NormalIteration};
 use super::yielding;
@@ -47,7 +47,7 @@ struct Violations {
     /// Sums of squares of the gap on the contact and of the violations.
     inner_square: f64,
     outer_square: f64,
-    /// Cells of the contact under tension.
+    /// Cells of the contact under tension, or above the hardness.
     tense: f64,
 }
 
@@ -57,14 +57,7 @@ struct Violations {
 /// When the caller stopped the iteration, or it has gone on for too long.
 pub fn iterate(problem: &mut NormalIteration<'_>, care: Care) -> Result<Ending, SolveError> {
     let task = problem.task;
-    match task.load.hardness {
-        None => {
-            for (active, p) in problem.active.iter_mut().zip(&*problem.pressure) {
-                *active = f64::from(u8::from(*p > 0.0));
-            }
-        }
-        Some(hardness) => yielding::mark_active(problem.pressure, hardness, &mut problem.active),
-    }
+    yielding::mark_active(problem.pressure, problem.law().hardness, &mut problem.active);
     let mut best = f64::INFINITY;
     let mut changes = 0;
     loop {
@@ -122,7 +115,7 @@ pub fn iterate(problem: &mut NormalIteration<'_>, care: Care) -> Result<Ending, 
 
 /// Gap everywhere, residual on the contact, and what is wrong.
 fn examine(problem: &mut NormalIteration<'_>) -> Violations {
-    let (own, hardness) = (problem.self_influence, problem.task.load.hardness);
+    let (own, law) = (problem.self_influence, problem.law());
     problem.turn(|problem, cell| problem.active[cell]);
     let undeformed = problem.level.as_deref().unwrap_or(problem.task.undeformed);
     let read = [&*problem.displacement, undeformed, &*problem.pressure, &problem.active];
@@ -131,15 +124,9 @@ fn examine(problem: &mut NormalIteration<'_>) -> Violations {
         if problem.task.load.total.is_some() { heights / count } else { problem.task.load.approach };
     let NormalIteration { gap, residual, active, pressure, .. } = &mut *problem;
     let (read, write) = ([&**pressure, active], [&mut gap[..], residual]);
-    let [inner_square, outer_square, tense] = match hardness {
-        None => each_cell(&Examine { approach, own }, read, write),
-        Some(hardness) => each_cell(&yielding::Examine { approach, own, hardness }, read, write),
-    };
+    let [inner_square, outer_square, tense] = each_cell(&Examine { approach, law }, read, write);
     let inner = largest_of(&Size, [residual]);
-    let outer = match hardness {
-        None => largest_of(&Violation { own }, [gap, pressure, active]),
-        Some(hardness) => largest_of(&yielding::Violation { own, hardness }, [gap, pressure, active]),
-    };
+    let outer = largest_of(&Violation(law), [gap, pressure, active]);
     // Of the body: displacements here have in them what the machine gives.
     let given = problem.task.load.give * load;
     let mean = work / load - given;
@@ -171,12 +158,9 @@ fn steepest(problem: &mut NormalIteration<'_>, count: Option<f64>) -> f64 {
 
 /// Cells under tension leave, cells that overlap enter.
 fn change_contact(problem: &mut NormalIteration<'_>, any_tense: bool) {
+    let rule = Change { hardness: problem.law().hardness };
     let (read, write) = ([&problem.gap[..]], [&mut problem.active[..], &mut *problem.pressure]);
-    let hardness = problem.task.load.hardness;
-    let [count, kept] = match hardness {
-        None => each_cell(&Change, read, write),
-        Some(hardness) => each_cell(&yielding::Change { hardness }, read, write),
-    };
+    let [count, kept] = each_cell(&rule, read, write);
     if !any_tense {
         return;
     }
@@ -220,17 +204,20 @@ impl CellRule<4, 1, 4> for Heights {
     }
 }
 
-/// What a cell violates: pressure under tension on the contact, as the gap it would close; overlap off it.
+/// What a cell violates on a fixed contact: tension or more than the hardness where pressure is unknown, as the gap it would close; overlap of
+/// open cells, and a gap of cells at the hardness.
 #[inline(always)]
-fn off<R: Reals>(own: f64, gap: R, p: R, active: R) -> R {
+fn off<R: Reals>(CellLaw { self_influence: own, hardness }: CellLaw, gap: R, p: R, active: R) -> R {
     let zero = p.all(0.0);
-    active.if_at_most(zero, (gap * -1.0).max(zero), (p * -own).max(zero))
+    let overlap = (gap * -1.0).max(zero);
+    let outside = p.all(0.5 * hardness).if_at_most(p, gap.max(zero), overlap);
+    active.if_at_most(zero, outside, (p * -own).max((p - hardness) * own).max(zero))
 }
 
-/// Gap of a height, the gap on the contact; sums of squares of it and of violations, and cells under tension.
+/// Gap of a height, the gap on the contact; sums of squares of it and of violations, and cells whose pressure is outside of what is allowed.
 struct Examine {
     approach: f64,
-    own: f64,
+    law: CellLaw,
 }
 
 impl CellRule<2, 2, 3> for Examine {
@@ -239,8 +226,9 @@ impl CellRule<2, 2, 3> for Examine {
         let zero = p.all(0.0);
         *gap = *gap - self.approach;
         *inside = active * *gap;
-        let off = off(self.own, *gap, p, active);
-        [*inside * *inside, off * off, zero.if_at_most(p, zero, active)]
+        let off = off(self.law, *gap, p, active);
+        let beyond = p.all(self.law.hardness).if_at_most(p, active, zero);
+        [*inside * *inside, off * off, zero.if_at_most(p, beyond, active)]
     }
 }
 
@@ -253,14 +241,12 @@ impl CellSize<1> for Size {
     }
 }
 
-struct Violation {
-    own: f64,
-}
+struct Violation(CellLaw);
 
 impl CellSize<3> for Violation {
     #[inline(always)]
     fn of<R: Reals>(&self, [gap, p, active]: [R; 3]) -> R {
-        off(self.own, gap, p, active)
+        off(self.0, gap, p, active)
     }
 }
 
@@ -277,17 +263,22 @@ impl CellRule<2, 1, 1> for WithoutMean {
     }
 }
 
-/// The contact without tension and with overlaps, and its pressure; sums of both.
-struct Change;
+/// The contact without what is outside of what is allowed, with open cells that overlap and cells at the hardness that open; its pressure; sums
+/// of both.
+struct Change {
+    hardness: f64,
+}
 
 impl CellRule<1, 2, 2> for Change {
     #[inline(always)]
     fn at<R: Reals>(&self, [gap]: [R; 1], [active, p]: &mut [R; 2]) -> [R; 2] {
-        let (zero, one) = (p.all(0.0), p.all(1.0));
-        let holds = zero.if_at_most(*p, one, zero);
+        let (zero, one, hardness) = (p.all(0.0), p.all(1.0), p.all(self.hardness));
+        let holds = zero.if_at_most(*p, hardness.if_at_most(*p, zero, one), zero);
         let overlaps = zero.if_at_most(gap, zero, one);
-        *active = active.if_at_most(zero, overlaps, holds);
-        *p = active.if_at_most(zero, zero, *p);
+        let opens = gap.if_at_most(zero, zero, one);
+        let enters = p.all(0.5 * self.hardness).if_at_most(*p, opens, overlaps);
+        *active = active.if_at_most(zero, enters, holds);
+        *p = p.max(zero).min(hardness);
         [*active, *p]
     }
 }

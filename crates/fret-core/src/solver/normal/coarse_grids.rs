@@ -10,7 +10,7 @@ use super::super::outcome::Work;
 use super::super::prescribed::NormalLoad;
 use super::super::region::Region;
 use super::super::settings::{IterationCallback, SolveError, SolverSettings};
-use super::grid_transfer::{coarser_heights, coarser_response, prolonged};
+use super::grid_transfer::{coarser_heights, coarser_response, is_made_coarser, prolonged};
 use super::{NormalEquations, first_pressure, solve_normal};
 use crate::compliance::{OperatorSet, SharedWorkspace, SurfaceCompliance, SurfaceResponse};
 use crate::kernel::{Components, ResponseTable};
@@ -25,8 +25,6 @@ const TOLERANCE: f64 = 3e-4;
 const TOLERANCE_STIFF: f64 = 3e-6;
 /// The prolonged edge is moved out by this fraction of a fine cell, since cells are added more cheaply than removed.
 const SHIFT: f64 = 0.05;
-/// The same for stiff coatings, whose active sets shrink more surely than they grow.
-const SHIFT_STIFF: f64 = 0.15;
 /// Cells kept free around the predicted contact.
 pub const MARGIN: usize = 2;
 
@@ -63,10 +61,7 @@ impl CoarseGrids {
                 });
             let (nx, ny) = undeformed.dim();
             let cells = symmetry.whole_of([nx, ny]);
-            let periodic = response.is_periodic();
-            let halves =
-                |axis: usize| !(periodic || symmetry.axes()[axis]) || [nx, ny][axis].is_multiple_of(2);
-            if cells[0].min(cells[1]) < COARSEST || !(halves(0) && halves(1)) {
+            if !is_made_coarser([nx, ny], COARSEST, (response.is_periodic(), symmetry)) {
                 break;
             }
             let level = Level {
@@ -106,9 +101,9 @@ impl CoarseGrids {
             let cells = (self.cells[0] * self.cells[1] * self.symmetry.copies()) as f64;
             let full_grid_convolutions = solved.work.full_grid_convolutions / cells;
             *work += Work { full_grid_convolutions, ..solved.work };
-            let SolvedLevel { region, pressure, gap, shift, .. } = solved;
+            let SolvedLevel { region, pressure, gap, .. } = solved;
             let total = load.total.map(|total| 4.0 * total);
-            start = prolonged((region, &pressure, &gap), shift, above, total);
+            start = prolonged((region, &pressure, &gap), SHIFT, above, total);
             if start.is_none() {
                 return Ok(None);
             }
@@ -122,7 +117,6 @@ struct SolvedLevel {
     region: Region,
     pressure: Vec<f64>,
     gap: Vec<f64>,
-    shift: f64,
     /// What it cost, the whole grid taken for one cell.
     work: Work,
 }
@@ -164,8 +158,7 @@ impl Level {
                 Some(start) => region.gather(start),
                 None => first_pressure(&task, operators.compliance.self_influence().normal),
             };
-            let stiff = operators.preconditioner.is_stiff();
-            let tolerance = if stiff { TOLERANCE_STIFF } else { TOLERANCE };
+            let tolerance = if operators.preconditioner.is_stiff() { TOLERANCE_STIFF } else { TOLERANCE };
             let coarse = SolverSettings { tolerance: tolerance.max(settings.tolerance), ..*settings };
             let fields = [&mut pressure[..], &mut vec![0.0; region.len()]];
             let solution = solve_normal(&task, fields, &mut operators, &coarse, callback)?;
@@ -177,9 +170,7 @@ impl Level {
                 region = whole;
                 continue;
             }
-            let shift = if stiff { SHIFT_STIFF } else { SHIFT };
-            let gap = solution.gap;
-            return Ok(SolvedLevel { region, pressure, gap, shift, work });
+            return Ok(SolvedLevel { region, pressure, gap: solution.gap, work });
         }
     }
 }

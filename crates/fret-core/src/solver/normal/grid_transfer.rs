@@ -8,6 +8,7 @@ use super::super::contact_edge::level_function;
 use super::super::region::Region;
 use crate::compliance::SurfaceResponse;
 use crate::kernel::{Components, InfluenceCoefficients, PeriodicSymbols};
+use crate::model::Symmetry;
 
 /// Pressure on a grid twice as fine, of `cells`, from that of a region with its gap; scaled to a `total` where the force is prescribed.
 /// The edge is moved out by `shift` of a fine cell. `None` where there is no contact.
@@ -80,6 +81,15 @@ pub fn interpolated(coarse: &Array2<f64>, fine: [usize; 2]) -> Array2<f64> {
     result
 }
 
+/// Whether a grid of a `shape` in front of its mirrors has one twice as coarse: with so many cells a side at the least, even in number where they
+/// repeat or are mirrored.
+pub fn is_made_coarser(shape: [usize; 2], least: usize, (is_periodic, symmetry): (bool, Symmetry)) -> bool {
+    let (whole, mirrored) = (symmetry.whole_of(shape), symmetry.axes());
+    (0..2).all(|axis| {
+        whole[axis] >= least && (shape[axis].is_multiple_of(2) || !(is_periodic || mirrored[axis]))
+    })
+}
+
 /// Means of two by two cells; a cell more than half outside counts what is inside.
 pub fn coarser_heights(fine: &Array2<f64>) -> Array2<f64> {
     let (nx, ny) = fine.dim();
@@ -94,23 +104,22 @@ pub fn coarser_response(fine: &SurfaceResponse, cells: [usize; 2], wanted: Compo
     let Components { normal, tangential, coupling } = wanted;
     let is_wanted = [normal, tangential, tangential, tangential, coupling, coupling];
     let odd = [[false; 2], [false; 2], [false; 2], [true; 2], [true, false], [false, true]];
-    match fine {
-        SurfaceResponse::FreeSpace(c) => {
-            let fine = [&c.zz, &c.xx, &c.yy, &c.xy, &c.zx, &c.zy];
-            let coarse = |k: usize| {
-                fine[k].as_ref().filter(|_| is_wanted[k]).map(|values| coarser_coefficients(values, odd[k]))
-            };
-            let [zz, xx, yy, xy, zx, zy] = [0, 1, 2, 3, 4, 5].map(coarse);
-            SurfaceResponse::FreeSpace(InfluenceCoefficients { zz, xx, yy, xy, zx, zy })
-        }
-        SurfaceResponse::Periodic(s) => {
-            let fine = [&s.zz, &s.xx, &s.yy, &s.xy, &s.zx, &s.zy];
-            let coarse = |k: usize| {
-                fine[k].as_ref().filter(|_| is_wanted[k]).map(|values| coarser_symbols(values, cells, odd[k]))
-            };
-            let [zz, xx, yy, xy, zx, zy] = [0, 1, 2, 3, 4, 5].map(coarse);
-            SurfaceResponse::Periodic(PeriodicSymbols { zz, xx, yy, xy, zx, zy })
-        }
+    let is_periodic = fine.is_periodic();
+    let parts = fine.parts();
+    let [zz, xx, yy, xy, zx, zy] = [0, 1, 2, 3, 4, 5].map(|k| {
+        let coarser = |values| {
+            if is_periodic {
+                coarser_symbols(values, cells, odd[k])
+            } else {
+                coarser_coefficients(values, odd[k])
+            }
+        };
+        parts[k].as_ref().filter(|_| is_wanted[k]).map(coarser)
+    });
+    if is_periodic {
+        SurfaceResponse::Periodic(PeriodicSymbols { zz, xx, yy, xy, zx, zy })
+    } else {
+        SurfaceResponse::FreeSpace(InfluenceCoefficients { zz, xx, yy, xy, zx, zy })
     }
 }
 

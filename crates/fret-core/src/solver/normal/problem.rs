@@ -151,7 +151,7 @@ impl<'a> NormalIteration<'a> {
 
     /// What a cell knows of its pressure.
     pub fn law(&self) -> CellLaw {
-        CellLaw { self_influence: self.self_influence, hardness: self.task.load.hardness }
+        CellLaw::under(&self.task.load, self.self_influence)
     }
 
     /// Brings pressure to what is allowed; pressure on all cells, where what there is carries no such force or moment.
@@ -193,14 +193,11 @@ impl<'a> NormalIteration<'a> {
         (approach, (load > 0.0).then(scale))
     }
 
-    /// Adds `fraction` of the change to pressures and displacements; rounding leaves no tension.
+    /// Adds `fraction` of the change to pressures and displacements; rounding leaves no tension and nothing above the hardness.
     pub fn advance(&mut self, fraction: f64) {
+        let rule = Advance { fraction, hardness: self.law().hardness };
         let write = [&mut *self.pressure, &mut *self.displacement];
-        let read = [&self.change[..], &self.image];
-        match self.task.load.hardness {
-            None => each_cell(&Advance { fraction }, read, write),
-            Some(hardness) => each_cell(&yielding::Advance { fraction, hardness }, read, write),
-        };
+        each_cell(&rule, [&self.change[..], &self.image], write);
     }
 
     /// What was changed becomes what was changed last.
@@ -225,12 +222,13 @@ impl CellRule<3, 1, 4> for Measure {
 
 struct Advance {
     fraction: f64,
+    hardness: f64,
 }
 
 impl CellRule<2, 2, 0> for Advance {
     #[inline(always)]
     fn at<R: Reals>(&self, [change, image]: [R; 2], [p, u]: &mut [R; 2]) -> [R; 0] {
-        *p = (*p + change * self.fraction).max(p.all(0.0));
+        *p = (*p + change * self.fraction).max(p.all(0.0)).min(p.all(self.hardness));
         *u = *u + image * self.fraction;
         []
     }

@@ -1,8 +1,8 @@
 //! Projected, preconditioned conjugate gradients (Polonsky & Keer 1999, with a preconditioner and an exact line search), one operator
 //! application an iteration: pressures stay feasible throughout; a nearly empty cell that is pulled apart leaves; the energy never
-//! rises. Where surfaces yield, pressures have a second bound (`yielding`).
+//! rises. Where surfaces yield, pressures have a second bound, the hardness; it is infinite elsewhere.
 
-use super::super::laws::complementarity::{NormalResidual, violation};
+use super::super::laws::complementarity::{CellLaw, NormalResidual, violation};
 use super::super::settings::SolveError;
 use super::problem::{Ending, NormalIteration};
 use super::yielding;
@@ -28,10 +28,7 @@ pub fn iterate(problem: &mut NormalIteration<'_>, max_stalled: usize) -> Result<
         let stretch = self_influence / leave_below;
         let NormalIteration { gap, residual, active, pressure, .. } = &mut *problem;
         let (read, write) = ([&**pressure], [&mut gap[..], residual, active]);
-        let [gaps, count] = match law.hardness {
-            None => each_cell(&Sets { approach, stretch }, read, write),
-            Some(hardness) => each_cell(&yielding::Sets { approach, stretch, hardness }, read, write),
-        };
+        let [gaps, count] = each_cell(&Sets { approach, stretch, hardness: law.hardness }, read, write);
         let worst = violation(gap, pressure, law);
         let residual = scale.map_or(if worst > 0.0 { 1.0 } else { 0.0 }, |scale| worst / scale);
         problem.report(residual)?;
@@ -64,10 +61,7 @@ pub fn iterate(problem: &mut NormalIteration<'_>, max_stalled: usize) -> Result<
         problem.convolve_change();
         let NormalIteration { change, image, gap, pressure, .. } = &mut *problem;
         let (curvature, slope) = (dot(change, image), dot(gap, change));
-        let steepest = match law.hardness {
-            None => largest_of(&Fall, [change, pressure]),
-            Some(hardness) => largest_of(&yielding::Step { hardness }, [change, pressure]),
-        };
+        let steepest = largest_of(&Steepest { hardness: law.hardness }, [change, pressure]);
         let exact = -slope / curvature;
         if !(curvature > 0.0 && exact > 0.0) {
             step *= 0.3;
@@ -117,20 +111,18 @@ impl Direction {
     /// prescribed force. False when no pressure would be left.
     fn clip(&self, problem: &mut NormalIteration<'_>, step: f64) -> bool {
         let Self { beta, constant } = *self;
-        let total = problem.task.load.total;
-        if let Some(hardness) = problem.task.load.hardness {
-            let NormalIteration { steepest, active, last_change, pressure, change, gap, .. } = &mut *problem;
-            let target = yielding::Target { step, constant, beta, hardness };
-            each_cell(&target, [steepest, active, last_change, pressure, gap], [change]);
-            let carried = total.is_none_or(|total| yielding::restore(change, active, total, hardness));
+        let (total, CellLaw { hardness, .. }) = (problem.task.load.total, problem.law());
+        let NormalIteration { steepest, active, last_change, pressure, change, gap, tilt, .. } =
+            &mut *problem;
+        let target = Target { step, constant, beta, hardness };
+        let [found] = each_cell(&target, [steepest, active, last_change, pressure, gap], [change]);
+        let mut fraction = 1.0;
+        if hardness.is_finite() {
+            if total.is_some_and(|total| !yielding::restore(change, active, total, hardness)) {
+                return false;
+            }
+        } else if let Some(tilt) = tilt {
             yielding::clip(change, hardness);
-            each_cell(&ChangeTo { fraction: 1.0 }, [pressure], [change]);
-            return carried;
-        }
-        let NormalIteration { steepest, active, last_change, pressure, change, tilt, .. } = &mut *problem;
-        let target = Target { step, constant, beta };
-        let [found] = each_cell(&target, [steepest, active, last_change, pressure], [change]);
-        if let Some(tilt) = tilt {
             if !tilt.restore(change) {
                 // Cells that would leave are needed for the moment.
                 add_scaled(change, 1.0, pressure);
@@ -138,15 +130,13 @@ impl Direction {
                     return false;
                 }
             }
-            each_cell(&ChangeTo { fraction: 1.0 }, [&*problem.pressure], [&mut problem.change]);
-            return true;
+        } else if let Some(total) = total {
+            if !(found > 0.0) {
+                return false;
+            }
+            fraction = total / found;
         }
-        let fraction = match total {
-            Some(_) if !(found > 0.0) => return false,
-            Some(total) => total / found,
-            None => 1.0,
-        };
-        each_cell(&ChangeTo { fraction }, [&*problem.pressure], [&mut problem.change]);
+        each_cell(&ChangeTo { fraction, hardness }, [pressure], [change]);
         true
     }
 }
@@ -154,31 +144,38 @@ impl Direction {
 /// Gap of a height, the cells where pressure is unknown, and the gap on them; sums of both.
 struct Sets {
     approach: f64,
-    /// A loaded cell whose pressure times this is less than its gap leaves.
+    /// A loaded cell whose pressure times this is less than its gap leaves; so does one whose room for more is less than its overlap.
     stretch: f64,
+    hardness: f64,
 }
 
 impl CellRule<1, 3, 2> for Sets {
     #[inline(always)]
     fn at<R: Reals>(&self, [p]: [R; 1], [gap, residual, active]: &mut [R; 3]) -> [R; 2] {
-        let (zero, one) = (p.all(0.0), p.all(1.0));
+        let (zero, one, hardness) = (p.all(0.0), p.all(1.0), p.all(self.hardness));
         *gap = *gap - self.approach;
         let overlaps = zero.if_at_most(*gap, zero, one);
-        let stays = gap.if_at_most(p * self.stretch, one, zero);
-        *active = p.if_at_most(zero, overlaps, stays);
+        let opens = gap.if_at_most(zero, zero, one);
+        let room = (hardness - p) * self.stretch;
+        let stays = gap.if_at_most(p * self.stretch, one, zero) * (*gap * -1.0).if_at_most(room, one, zero);
+        *active = p.if_at_most(zero, overlaps, hardness.if_at_most(p, opens, stays));
         *residual = *active * *gap;
         [*residual, *active]
     }
 }
 
-/// Fraction of its pressure that a cell loses.
-struct Fall;
+/// Fraction of its pressure that a cell loses, or of its room for more that it takes.
+struct Steepest {
+    hardness: f64,
+}
 
-impl CellSize<2> for Fall {
+impl CellSize<2> for Steepest {
     #[inline(always)]
     fn of<R: Reals>(&self, [change, p]: [R; 2]) -> R {
-        let zero = p.all(0.0);
-        zero.if_at_most(change, zero, change / p * -1.0)
+        let (zero, hardness) = (p.all(0.0), p.all(self.hardness));
+        let falls = zero.if_at_most(change, zero, change / p * -1.0);
+        let rises = change.if_at_most(zero, zero, change / (hardness - p));
+        falls.max(rises)
     }
 }
 
@@ -192,31 +189,36 @@ impl CellRule<5, 0, 7> for Products {
     }
 }
 
-/// Pressure after a step, without tension.
+/// Pressure after a step, not yet cut to between 0 and the hardness; of inactive cells that of the two to which they have gone or go; the sum of what it is
+/// when it is cut.
 struct Target {
     step: f64,
     constant: f64,
     beta: f64,
+    hardness: f64,
 }
 
-impl CellRule<4, 1, 1> for Target {
+impl CellRule<5, 1, 1> for Target {
     #[inline(always)]
-    fn at<R: Reals>(&self, [z, active, last, p]: [R; 4], [target]: &mut [R; 1]) -> [R; 1] {
+    fn at<R: Reals>(&self, [z, active, last, p, gap]: [R; 5], [target]: &mut [R; 1]) -> [R; 1] {
+        let (zero, hardness) = (p.all(0.0), p.all(self.hardness));
         let moved = p + (last * self.beta - z + self.constant) * self.step;
-        *target = (active * moved).max(p.all(0.0));
-        [*target]
+        let rests = zero.if_at_most(gap, hardness.if_at_most(p, hardness, zero), hardness);
+        *target = active.if_at_most(zero, rests, moved);
+        [target.max(zero).min(hardness)]
     }
 }
 
-/// What brings pressure to a fraction of its target.
+/// What brings pressure to a fraction of its target, cut to between 0 and the hardness.
 struct ChangeTo {
     fraction: f64,
+    hardness: f64,
 }
 
 impl CellRule<1, 1, 0> for ChangeTo {
     #[inline(always)]
     fn at<R: Reals>(&self, [p]: [R; 1], [target]: &mut [R; 1]) -> [R; 0] {
-        *target = *target * self.fraction - p;
+        *target = target.max(p.all(0.0)).min(p.all(self.hardness)) * self.fraction - p;
         []
     }
 }

@@ -51,13 +51,14 @@ pub fn solve(
         return Ok(None);
     }
     let mut response = operators.sparse.take();
-    let law = CellLaw { self_influence: operators.compliance.self_influence().normal, hardness: None };
+    let law = CellLaw::under(&task.load, operators.compliance.self_influence().normal);
     let approach = task.load.approach_under(pressure);
     let (mut gap, mut iterations, mut before) = (Vec::new(), 0, f64::INFINITY);
     let solution = loop {
         operators.compliance.normal(pressure, displacement);
         iterations += 1;
-        let residual = normal_residual(pressure, (displacement, task.undeformed), law, approach, &mut gap);
+        let residual =
+            normal_residual(pressure, (displacement, task.undeformed), law, (approach, None), &mut gap);
         if callback(iterations, residual.residual).is_break() {
             return Err(SolveError::Stopped);
         }

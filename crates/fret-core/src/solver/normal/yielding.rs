@@ -1,8 +1,9 @@
-//! What is otherwise in both iterations where surfaces yield at a hardness `H`: pressures stay between 0 and `H`. What empty cells are to
-//! tension cells at the hardness are to more pressure, with the sign of the gap turned round.
+//! Where surfaces yield at a hardness `H` pressures stay between 0 and `H`. What empty cells are to tension cells at the hardness are to more
+//! pressure, with the sign of the gap turned round: the rules of both iterations have the second bound always, infinite where nothing yields. Here is
+//! what is otherwise: how a force is restored between two bounds.
 
 use super::super::laws::complementarity::yields_from;
-use crate::fields::{CellRule, CellSize, Reals, each_cell};
+use crate::fields::{CellRule, Reals, each_cell};
 
 /// Passes at the most in which the shift is found that restores a force; most take three to six.
 const MOST_PASSES: usize = 60;
@@ -131,144 +132,11 @@ impl CellRule<1, 1, 0> for Shift {
     }
 }
 
-/// Gap of a height, the cells where pressure is unknown, and the gap on them; sums of both.
-pub struct Sets {
-    pub approach: f64,
-    /// A loaded cell whose pressure times this is less than its gap leaves; so does one whose room for more is less than its overlap.
-    pub stretch: f64,
-    pub hardness: f64,
-}
-
-impl CellRule<1, 3, 2> for Sets {
-    #[inline(always)]
-    fn at<R: Reals>(&self, [p]: [R; 1], [gap, residual, active]: &mut [R; 3]) -> [R; 2] {
-        let (zero, one, hardness) = (p.all(0.0), p.all(1.0), p.all(self.hardness));
-        *gap = *gap - self.approach;
-        let overlaps = zero.if_at_most(*gap, zero, one);
-        let opens = gap.if_at_most(zero, zero, one);
-        let room = (hardness - p) * self.stretch;
-        let stays = gap.if_at_most(p * self.stretch, one, zero) * (*gap * -1.0).if_at_most(room, one, zero);
-        *active = p.if_at_most(zero, overlaps, hardness.if_at_most(p, opens, stays));
-        *residual = *active * *gap;
-        [*residual, *active]
-    }
-}
-
-/// Pressure after a step, not yet cut to between 0 and the hardness; of inactive cells that of the two to which they have gone or go.
-pub struct Target {
-    pub step: f64,
-    pub constant: f64,
-    pub beta: f64,
-    pub hardness: f64,
-}
-
-impl CellRule<5, 1, 0> for Target {
-    #[inline(always)]
-    fn at<R: Reals>(&self, [z, active, last, p, gap]: [R; 5], [target]: &mut [R; 1]) -> [R; 0] {
-        let (zero, hardness) = (p.all(0.0), p.all(self.hardness));
-        let moved = p + (last * self.beta - z + self.constant) * self.step;
-        let rests = zero.if_at_most(gap, hardness.if_at_most(p, hardness, zero), hardness);
-        *target = active.if_at_most(zero, rests, moved);
-        []
-    }
-}
-
-/// Fraction of its pressure that a cell loses, or of its room for more that it takes.
-pub struct Step {
-    pub hardness: f64,
-}
-
-impl CellSize<2> for Step {
-    #[inline(always)]
-    fn of<R: Reals>(&self, [change, p]: [R; 2]) -> R {
-        let (zero, hardness) = (p.all(0.0), p.all(self.hardness));
-        let falls = zero.if_at_most(change, zero, change / p * -1.0);
-        let rises = change.if_at_most(zero, zero, change / (hardness - p));
-        falls.max(rises)
-    }
-}
-
-/// Adds a fraction of a change; rounding leaves no tension and nothing above the hardness.
-pub struct Advance {
-    pub fraction: f64,
-    pub hardness: f64,
-}
-
-impl CellRule<2, 2, 0> for Advance {
-    #[inline(always)]
-    fn at<R: Reals>(&self, [change, image]: [R; 2], [p, u]: &mut [R; 2]) -> [R; 0] {
-        *p = (*p + change * self.fraction).max(p.all(0.0)).min(p.all(self.hardness));
-        *u = *u + image * self.fraction;
-        []
-    }
-}
-
 /// Marks the cells whose pressure is unknown: loaded below the hardness.
 pub fn mark_active(pressure: &[f64], hardness: f64, active: &mut [f64]) {
     let limit = yields_from(hardness);
     for (active, p) in active.iter_mut().zip(pressure) {
         *active = f64::from(u8::from(*p > 0.0 && *p < limit));
-    }
-}
-
-/// What a cell violates on a fixed contact: tension or more than the hardness where pressure is unknown, as the gap it would close; overlap of
-/// open cells, and a gap of cells at the hardness.
-#[inline(always)]
-fn off<R: Reals>([own, hardness]: [f64; 2], gap: R, p: R, active: R) -> R {
-    let zero = p.all(0.0);
-    let overlap = (gap * -1.0).max(zero);
-    let outside = p.all(0.5 * hardness).if_at_most(p, gap.max(zero), overlap);
-    active.if_at_most(zero, outside, (p * -own).max((p - hardness) * own).max(zero))
-}
-
-/// Gap of a height, the gap on the contact; sums of squares of it and of violations, and cells whose pressure is outside of what is allowed.
-pub struct Examine {
-    pub approach: f64,
-    pub own: f64,
-    pub hardness: f64,
-}
-
-impl CellRule<2, 2, 3> for Examine {
-    #[inline(always)]
-    fn at<R: Reals>(&self, [p, active]: [R; 2], [gap, inside]: &mut [R; 2]) -> [R; 3] {
-        let zero = p.all(0.0);
-        *gap = *gap - self.approach;
-        *inside = active * *gap;
-        let off = off([self.own, self.hardness], *gap, p, active);
-        let beyond = p.all(self.hardness).if_at_most(p, active, zero);
-        [*inside * *inside, off * off, zero.if_at_most(p, beyond, active)]
-    }
-}
-
-pub struct Violation {
-    pub own: f64,
-    pub hardness: f64,
-}
-
-impl CellSize<3> for Violation {
-    #[inline(always)]
-    fn of<R: Reals>(&self, [gap, p, active]: [R; 3]) -> R {
-        off([self.own, self.hardness], gap, p, active)
-    }
-}
-
-/// The contact without what is outside of what is allowed, with open cells that overlap and cells at the hardness that open; its pressure; sums
-/// of both.
-pub struct Change {
-    pub hardness: f64,
-}
-
-impl CellRule<1, 2, 2> for Change {
-    #[inline(always)]
-    fn at<R: Reals>(&self, [gap]: [R; 1], [active, p]: &mut [R; 2]) -> [R; 2] {
-        let (zero, one, hardness) = (p.all(0.0), p.all(1.0), p.all(self.hardness));
-        let holds = zero.if_at_most(*p, hardness.if_at_most(*p, zero, one), zero);
-        let overlaps = zero.if_at_most(gap, zero, one);
-        let opens = gap.if_at_most(zero, zero, one);
-        let enters = p.all(0.5 * self.hardness).if_at_most(*p, opens, overlaps);
-        *active = active.if_at_most(zero, enters, holds);
-        *p = p.max(zero).min(hardness);
-        [*active, *p]
     }
 }
 

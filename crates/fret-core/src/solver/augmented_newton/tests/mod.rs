@@ -2,7 +2,7 @@ mod solutions;
 
 use std::ops::ControlFlow;
 
-use super::super::few_cells::{Asked, Cells, KINDS, by_cell, kinds, size, tractions_of};
+use super::super::tests::few_cells::{Asked, Cells, KINDS, by_cell, kinds, size, tractions_of};
 use super::*;
 use crate::model::TangentialField;
 use crate::random::Random;

@@ -2,8 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use super::super::super::few_cells::{Asked, Cells, by_cell, size, tractions_of};
 use super::super::super::settings::{IterationCallback, SolverSettings};
+use super::super::super::tests::few_cells::{Asked, Cells, by_cell, size, tractions_of};
 use super::super::super::tractions::{Displacements, Tractions};
 use super::super::solve;
 use crate::random::Random;

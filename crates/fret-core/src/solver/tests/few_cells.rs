@@ -1,13 +1,13 @@
 //! Contacts of a few cells, and what the equations leave of them, written down a second time.
 
-use super::contact_problem::{ContactProblem, Pressure};
-use super::laws::friction::FrictionLaw;
-use super::laws::rigid_motions::CellPositions;
-use super::laws::slip_path::SlipPath;
-use super::operators::RegionOperators;
-use super::prescribed::{NormalLoad, TangentialLoads};
-use super::region::Region;
-use super::tractions::{Displacements, Tractions};
+use super::super::contact_problem::{ContactProblem, Pressure};
+use super::super::laws::friction::FrictionLaw;
+use super::super::laws::rigid_motions::CellPositions;
+use super::super::laws::slip_path::SlipPath;
+use super::super::operators::RegionOperators;
+use super::super::prescribed::{NormalLoad, TangentialLoads};
+use super::super::region::Region;
+use super::super::tractions::{Displacements, Tractions};
 use crate::compliance::{DirectCompliance, OperatorSet, SharedWorkspace, SurfaceCompliance, SurfaceResponse};
 use crate::kernel::{Components, InfluenceCoefficients, influence_coefficients};
 use crate::model::{
@@ -16,15 +16,15 @@ use crate::model::{
 use crate::random::Random;
 
 /// A few cells of side 1 on a half-space of E = 1 under a rigid body.
-pub(super) struct Cells {
-    pub(super) shape: [usize; 2],
-    pub(super) coefficients: InfluenceCoefficients,
+pub struct Cells {
+    pub shape: [usize; 2],
+    pub coefficients: InfluenceCoefficients,
     /// Displacement `3 to + l` by a unit of traction `3 from + k`, by the plain double sum [length/pressure].
-    pub(super) matrix: Vec<Vec<f64>>,
+    pub matrix: Vec<Vec<f64>>,
 }
 
 impl Cells {
-    pub(super) fn new(shape: [usize; 2], poisson: f64) -> Self {
+    pub fn new(shape: [usize; 2], poisson: f64) -> Self {
         let material = ElasticMaterial::new(1.0, poisson).unwrap();
         let lower = HalfSpace::new(Vec::new(), Base::Elastic(material)).unwrap();
         let pair = ContactPair::new(Body::Rigid, Body::Elastic(lower)).unwrap();
@@ -46,20 +46,20 @@ impl Cells {
         Self { shape, coefficients, matrix }
     }
 
-    pub(super) fn count(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.shape[0] * self.shape[1]
     }
 
     /// Self-influence, normal and tangential.
-    pub(super) fn own(&self) -> [f64; 2] {
+    pub fn own(&self) -> [f64; 2] {
         [self.matrix[0][0], self.matrix[1][1]]
     }
 
-    pub(super) fn response(&self) -> SurfaceResponse {
+    pub fn response(&self) -> SurfaceResponse {
         SurfaceResponse::FreeSpace(self.coefficients.clone())
     }
 
-    pub(super) fn operators(&self) -> RegionOperators {
+    pub fn operators(&self) -> RegionOperators {
         let (response, shape) = (self.response(), self.shape);
         let wanted = OperatorSet { normal: true, tangential: true, full: true, ..OperatorSet::default() };
         let workspace = SharedWorkspace::default();
@@ -67,7 +67,7 @@ impl Cells {
     }
 
     /// Displacements of tractions, cell by cell.
-    pub(super) fn displacements(&self, tractions: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    pub fn displacements(&self, tractions: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let sum = |row: usize| -> f64 {
             tractions.as_flattened().iter().zip(&self.matrix[row]).map(|(t, k)| t * k).sum()
         };
@@ -75,7 +75,7 @@ impl Cells {
     }
 
     /// Middle of a cell.
-    pub(super) fn middle(&self, cell: usize) -> [f64; 2] {
+    pub fn middle(&self, cell: usize) -> [f64; 2] {
         let [nx, ny] = self.shape;
         let from_middle = |index: usize, count: usize| index as f64 - 0.5 * (count as f64 - 1.0);
         [from_middle(cell / ny, nx), from_middle(cell % ny, ny)]
@@ -83,26 +83,26 @@ impl Cells {
 }
 
 /// What is asked for, by numbers that the tests read themselves.
-pub(super) struct Asked {
-    pub(super) gap: Vec<f64>,
-    pub(super) friction: Vec<f64>,
+pub struct Asked {
+    pub gap: Vec<f64>,
+    pub friction: Vec<f64>,
     /// Shear strength; infinite where there is none.
-    pub(super) strength: f64,
-    pub(super) total: Option<f64>,
-    pub(super) approach: f64,
-    pub(super) give: f64,
-    pub(super) before: TangentialField,
-    pub(super) path: SlipPath,
-    pub(super) rotates: bool,
-    pub(super) by_force: [bool; 3],
-    pub(super) spring: [f64; 3],
-    pub(super) motion: [f64; 3],
-    pub(super) resultant: [f64; 3],
+    pub strength: f64,
+    pub total: Option<f64>,
+    pub approach: f64,
+    pub give: f64,
+    pub before: TangentialField,
+    pub path: SlipPath,
+    pub rotates: bool,
+    pub by_force: [bool; 3],
+    pub spring: [f64; 3],
+    pub motion: [f64; 3],
+    pub resultant: [f64; 3],
 }
 
 impl Asked {
     /// By approach and shift, with friction.
-    pub(super) fn drawn(random: &mut Random, cells: &Cells) -> Self {
+    pub fn drawn(random: &mut Random, cells: &Cells) -> Self {
         let count = cells.count();
         let mut field = |size: f64| -> Vec<f64> { (0..count).map(|_| random.between(-size, size)).collect() };
         let before = TangentialField { x: field(0.2), y: field(0.2) };
@@ -124,7 +124,7 @@ impl Asked {
     }
 
     /// The same with lengths and tractions so many times as large: without turned paths.
-    pub(super) fn in_units(mut self, unit: f64) -> Self {
+    pub fn in_units(mut self, unit: f64) -> Self {
         let fields = [&mut self.gap, &mut self.before.x, &mut self.before.y];
         fields.into_iter().flatten().for_each(|value| *value *= unit);
         self.strength *= unit;
@@ -137,14 +137,14 @@ impl Asked {
         self
     }
 
-    pub(super) fn positions(&self, cells: &Cells) -> CellPositions {
+    pub fn positions(&self, cells: &Cells) -> CellPositions {
         let [nx, ny] = cells.shape;
         let x = (0..nx).map(|i| cells.middle(i * ny)[0]).collect();
         let y = (0..ny).map(|j| cells.middle(j)[1]).collect();
         CellPositions::new(x, y, self.rotates)
     }
 
-    pub(super) fn law(&self, cells: &Cells) -> FrictionLaw {
+    pub fn law(&self, cells: &Cells) -> FrictionLaw {
         let values = ndarray::Array2::from_shape_vec(cells.shape, self.friction.clone()).unwrap();
         let mut law = CoulombFriction::map(values).unwrap();
         if self.strength.is_finite() {
@@ -154,7 +154,7 @@ impl Asked {
     }
 
     /// Hands the problem on as the solver takes it.
-    pub(super) fn problem<T>(&self, cells: &Cells, then: impl FnOnce(&ContactProblem<'_>) -> T) -> T {
+    pub fn problem<T>(&self, cells: &Cells, then: impl FnOnce(&ContactProblem<'_>) -> T) -> T {
         let (law, positions) = (self.law(cells), self.positions(cells));
         then(&ContactProblem {
             pressure: Pressure::Unknown,
@@ -180,7 +180,7 @@ impl Asked {
     }
 
     /// The rotation field over its length in a cell.
-    pub(super) fn around(&self, cells: &Cells, cell: usize) -> [f64; 2] {
+    pub fn around(&self, cells: &Cells, cell: usize) -> [f64; 2] {
         let [nx, ny] = cells.shape;
         let length = (0.5 * (nx as f64 - 1.0)).max(0.5 * (ny as f64 - 1.0));
         let [x, y] = cells.middle(cell);
@@ -188,7 +188,7 @@ impl Asked {
     }
 
     /// Augmented pressure, trial shear and bound of every cell.
-    pub(super) fn trials(
+    pub fn trials(
         &self,
         cells: &Cells,
         (tractions, approach, motion): Unknowns<'_>,
@@ -212,7 +212,7 @@ impl Asked {
 
     /// What the equations leave: three of every cell [pressure], then those of the approach and of the motions, in the units that
     /// the merit function has.
-    pub(super) fn left(&self, cells: &Cells, unknowns: Unknowns<'_>) -> Vec<f64> {
+    pub fn left(&self, cells: &Cells, unknowns: Unknowns<'_>) -> Vec<f64> {
         let (tractions, approach, motion) = unknowns;
         let mut left = Vec::new();
         let mut sums = [0.0; 4];
@@ -242,23 +242,23 @@ impl Asked {
 }
 
 /// Tractions, approach and motions.
-pub(super) type Unknowns<'a> = (&'a [[f64; 3]], f64, [f64; 3]);
+pub type Unknowns<'a> = (&'a [[f64; 3]], f64, [f64; 3]);
 
-pub(super) fn by_cell(fields: [&[f64]; 3]) -> Vec<[f64; 3]> {
+pub fn by_cell(fields: [&[f64]; 3]) -> Vec<[f64; 3]> {
     (0..fields[0].len()).map(|cell| fields.map(|field| field[cell])).collect()
 }
 
-pub(super) fn tractions_of(cells: &[[f64; 3]]) -> Tractions {
+pub fn tractions_of(cells: &[[f64; 3]]) -> Tractions {
     let part = |k: usize| cells.iter().map(|traction| traction[k]).collect();
     Tractions { pressure: part(0), shear: TangentialField { x: part(1), y: part(2) } }
 }
 
-pub(super) fn size(vector: &[f64]) -> f64 {
+pub fn size(vector: &[f64]) -> f64 {
     vector.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
 /// Every kind of load: by force or motion, with and without a machine that gives, a shear strength, turned paths.
-pub(super) fn kinds(random: &mut Random, cells: &Cells, kind: usize) -> Asked {
+pub fn kinds(random: &mut Random, cells: &Cells, kind: usize) -> Asked {
     let mut asked = Asked::drawn(random, cells);
     match kind {
         1 => asked.total = Some(random.between(0.5, 2.0)),
@@ -307,4 +307,4 @@ pub(super) fn kinds(random: &mut Random, cells: &Cells, kind: usize) -> Asked {
     asked
 }
 
-pub(super) const KINDS: usize = 10;
+pub const KINDS: usize = 10;
