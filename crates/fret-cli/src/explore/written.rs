@@ -1,14 +1,13 @@
 //! The text of a case with other numbers at some of its keys: comments, order and whatever else was written stay as they are.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::question::Values;
-
 /// The text with the numbers; `None` where a key has no number of its own in it.
-pub fn with_numbers(text: &str, values: &Values) -> Option<String> {
+pub fn with_numbers(text: &str, values: &BTreeMap<String, f64>) -> Option<String> {
     let root = DeTable::parse(text).ok()?;
     let mut places: Vec<(Range<usize>, f64)> = Vec::new();
     for (key, value) in values {
@@ -59,8 +58,6 @@ fn name_of<'a>(item: &'a DeValue<'_>) -> Option<&'a str> {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeMap;
-
     use super::*;
 
     const CASE: &str = "# a comment\nfriction.coefficient = 0.2  # of steel\r\n\n[lower]\nsubstrate = { young = 210e3, poisson = 0.3 } # both\n\
