@@ -128,8 +128,9 @@ def vjp(
         As for :func:`fretting.run`.
     weights : mapping of str to float or array
         The weight of every result, such as the derivatives of a loss by the results. Of a field its weights in all
-        cells, with the shape of the field: ``"pressure"``, ``"shear_x"``, ``"shear_y"``, accumulated slip ``"slip_x"``,
-        ``"slip_y"`` and ``"worn_depth"`` of the last increment, or of another (``"increments[7].pressure"``).
+        cells, with the shape of the field: ``"pressure"``, ``"shear_x"``, ``"shear_y"``, relative slip since the start
+        ``"slip_x"``, ``"slip_y"`` and ``"worn_depth"`` of the last increment, or of another
+        (``"increments[7].pressure"``).
     by : str or iterable of str
         Numbers of the case, as for :func:`gradient`. Default: all there are.
     threads : int, optional
