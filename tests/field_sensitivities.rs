@@ -1,4 +1,4 @@
-//! Derivatives of weighted sums of tractions against equilibrium and differences of whole runs.
+//! Derivatives of weighted sums of tractions, slip and wear depths against equilibrium and differences of whole runs.
 
 use fret_core::run::{Silent, Simulation};
 use fret_core::sensitivity::{SensitivityError, Weights, pulled_back};
@@ -43,10 +43,14 @@ fn text(moved: Option<(usize, f64)>) -> String {
     Written { text: COATED, numbers: &NUMBERS }.case(moved)
 }
 
-/// Derivatives by all numbers, backwards, and by each alone, forward.
 fn both_ways(weights: &Weights) -> [Vec<f64>; 2] {
-    let plan = planned(&text(None));
-    let by: Vec<String> = NUMBERS.iter().map(|(_, _, path)| (*path).to_owned()).collect();
+    of_case(&Written { text: COATED, numbers: &NUMBERS }, weights)
+}
+
+/// Derivatives by all numbers, backwards, and by each alone, forward.
+fn of_case(written: &Written<'_>, weights: &Weights) -> [Vec<f64>; 2] {
+    let plan = planned(&written.case(None));
+    let by: Vec<String> = written.numbers.iter().map(|(_, _, path)| (*path).to_owned()).collect();
     let along = |by: &[String]| pulled_back(&plan, weights, by, &mut Silent).unwrap().gradients[0].by.clone();
     [along(&by), by.chunks(1).flat_map(along).collect()]
 }
@@ -100,6 +104,47 @@ fn weights_of_cells_are_differentiated() {
     }
 }
 
+/// Accumulated slip and the wear depth of surfaces that wear in jumps over cycles, as above; and the sum of the depth is the worn volume.
+#[test]
+fn weights_of_slip_and_wear_are_differentiated() {
+    const STEP: f64 = 1e-5;
+    let worn =
+        COATED.replace("[solver]", "[wear]\ncoefficient = <k>\nevery = 2\nlargest_step = 1.0\n[solver]");
+    let worn = worn.replace("cycles = 1", "cycles = 4");
+    let numbers = [&NUMBERS[..], &[("k", 0.03, "wear.coefficient")]].concat();
+    let written = Written { text: &worn, numbers: &numbers };
+    let mut random = Random::seeded(13);
+    let mut field = || Array2::from_shape_simple_fn((24, 24), || random.between(0.0, 1.0));
+    let [x, y, depth] = [field(), field(), field()];
+    let cases = [
+        (fields([("slip_x", x.clone()), ("slip_y", y.clone())]), [1.0, 0.0]),
+        (fields([("worn_depth", depth.clone())]), [0.0, 1.0]),
+    ];
+    for (weights, [of_slip, of_depth]) in cases {
+        let sum = |moved| {
+            let state = Simulation::new(&planned(&written.case(moved))).run(&mut Silent).unwrap().state;
+            let slip = (&x * &state.slip[0]).sum() + (&y * &state.slip[1]).sum();
+            of_slip * slip + of_depth * (&depth * state.worn_depth.as_ref().unwrap()).sum()
+        };
+        let size = sum(None).abs();
+        let [backward, forward] = of_case(&written, &weights);
+        for (number, (name, value, _)) in numbers.iter().enumerate() {
+            let expected = (sum(Some((number, STEP))) - sum(Some((number, -STEP)))) / (2.0 * STEP);
+            let [found, other] = [&backward, &forward].map(|by| by[number] * value);
+            let off = (found - expected).abs() / (size + expected.abs());
+            assert!(off < 1e-5, "{name}: {found} {expected} {size}");
+            assert!((found - other).abs() < 1e-9 * (size + found.abs()), "{name}: {found} {other}");
+        }
+    }
+    let area = Array2::from_elem((24, 24), (3.0_f64 / 24.0).powi(2));
+    let volume = Weights { results: vec![("worn_volume".to_owned(), 1.0)], fields: Vec::new() };
+    let [of_depth, of_volume] = [fields([("worn_depth", area)]), volume].map(|of| of_case(&written, &of));
+    for (one, other) in of_depth[0].iter().zip(&of_volume[0]) {
+        // Rounding of sums of some hundred cells.
+        assert!((one - other).abs() <= 1e-12 * other.abs(), "{one} {other}");
+    }
+}
+
 #[test]
 fn fields_without_derivatives_are_refused() {
     let plan = planned(&text(None));
@@ -117,6 +162,7 @@ fn fields_without_derivatives_are_refused() {
     };
     let ones = || Array2::ones((24, 24));
     assert!(refused("gap", ones()).contains("pressure, shear_x, shear_y"));
+    assert!(refused("worn_depth", ones()).contains("nothing wears"));
     assert!(refused("increments[x].pressure", ones()).contains("increments[7].pressure"));
     assert!(refused("increments[99].pressure", ones()).contains("11 increments"));
     assert!(refused("pressure", Array2::ones((24, 12))).contains("24 x 12 weights"));

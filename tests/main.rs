@@ -9,6 +9,7 @@
 
 mod analytic_limits;
 mod body_ends;
+mod bulk_sensitivities;
 mod bulk_stress;
 mod certified;
 mod coated_limits;
@@ -39,6 +40,7 @@ mod line_contact;
 mod line_extremes;
 mod loadings;
 mod loads_of_cycles;
+mod loop_sensitivities;
 mod mean_gap;
 mod misleading;
 mod moving_surfaces;
@@ -74,3 +76,4 @@ mod tilt;
 mod turned_surfaces;
 mod two_bodies;
 mod wear;
+mod wear_sensitivities;

@@ -30,7 +30,7 @@ pub fn found(plan: &Plan, of: &[&str], by: &[&str]) -> Result<Sensitivities, Sen
     found_along(plan, of, by, None)
 }
 
-fn found_along(
+pub fn found_along(
     plan: &Plan,
     of: &[&str],
     by: &[&str],
@@ -51,7 +51,7 @@ impl Written<'_> {
         text
     }
 
-    fn plan(&self, moved: Option<(usize, f64)>) -> Plan {
+    pub fn plan(&self, moved: Option<(usize, f64)>) -> Plan {
         planned(&self.case(moved))
     }
 
@@ -64,12 +64,12 @@ impl Written<'_> {
 
     /// Largest difference of any derivative in any increment from the central difference of runs, over the largest value of the column and
     /// the derivative.
-    fn worst(&self, columns: &[&str]) -> f64 {
+    pub fn worst(&self, columns: &[&str]) -> f64 {
         self.worst_both_ways(columns, Direction::Backward)
     }
 
     /// The same of a history of which derivatives asked for backwards are taken this way.
-    fn worst_both_ways(&self, columns: &[&str], backwards: Direction) -> f64 {
+    pub fn worst_both_ways(&self, columns: &[&str], backwards: Direction) -> f64 {
         // With a step so small hardly any cell changes its state; a tolerance of 1e-11 leaves 1e-6 of noise.
         const STEP: f64 = 1e-5;
         // Of linear equations solved to 1e-12, increment after increment, what is left of a derivative that is a millionth of the others.
@@ -538,6 +538,27 @@ fn lines_and_periods_are_differentiated() {
     ];
     let columns = ["approach", "max_pressure", "shift_x", "dissipated_energy"];
     assert!(Written { text: line, numbers: &numbers }.worst(&columns) < 1e-5);
+    // layers of a line contact, whose datum moves with them; both bodies elastic
+    let layered = "[grid]\ncells = 48\nsize = 3.0\ndatum = <datum>\n[upper]\nsubstrate = { young = <Eu>, poisson = 0.25 }\n[lower]\n\
+                   coatings = [{ thickness = <h>, young = <E>, poisson = <nu> }]\nsubstrate = { young = <Es>, poisson = <ns> }\n\
+                   [profile.cylinder]\nradius = 5.0\naxis = \"y\"\n[friction]\ncoefficient = <mu>\n[solver]\ntolerance = 1e-11\n\
+                   [[load]]\nnormal_force = <P>\nincrements = 4\n[[load]]\ntangential_force = [<Q>, 0.0]\nbulk_stress = 0.01\n\
+                   increments = 8\ncycles = 1\n";
+    let numbers = [
+        ("Eu", 5.0, "upper.substrate.young"),
+        ("h", 0.4, "lower.coatings[0].thickness"),
+        ("E", 3.0, "lower.coatings[0].young"),
+        ("nu", 0.35, "lower.coatings[0].poisson"),
+        ("Es", 1.0, "lower.substrate.young"),
+        ("ns", 0.3, "lower.substrate.poisson"),
+        ("mu", 0.3, "friction.coefficient"),
+        ("P", 0.2, "load[0].normal_force"),
+        ("Q", 0.04, "load[1].tangential_force[0]"),
+    ];
+    for datum in ["0.2", "6.0"] {
+        let text = layered.replace("<datum>", datum);
+        assert!(Written { text: &text, numbers: &numbers }.worst(&columns) < 1e-5, "datum {datum}");
+    }
     let period = "[grid]\ncells = [24, 24]\nsize = [2.0, 2.0]\nperiodic = true\n[upper]\nrigid = true\n[lower]\n\
                   coatings = [{ thickness = <h>, young = <E>, poisson = 0.3 }]\nbase = \"rigid\"\n[profile.wave]\namplitude = <a>\n\
                   wavelength_x = 2.0\nwavelength_y = 2.0\n[friction]\ncoefficient = <mu>\n[solver]\ntolerance = 1e-11\n[[load]]\n\
@@ -580,142 +601,4 @@ fn backwards_all_numbers_take_fewer_applications_than_the_run() {
     println!("run {of_run}, derivatives {work:?}");
     assert!(work.of_linear_problems + work.others < of_run, "{of_run}: {work:?}");
     assert!((1..=history.steps.len()).contains(&work.of_constants), "{work:?}");
-}
-
-/// A loop of a coated body that wears, in cycles and in a stage of its own.
-const WORN: &str = r#"
-[grid]
-cells = [24, 24]
-size = [3.0, 3.0]
-[upper]
-rigid = true
-[lower]
-coatings = [{ thickness = <h>, young = <E>, poisson = 0.35 }]
-substrate = { young = <Es>, poisson = 0.3 }
-[profile.sphere]
-radius = <R>
-[friction]
-coefficient = <mu>
-[wear]
-law = "<law>"
-coefficient = <k>
-[solver]
-tolerance = 1e-11
-[[load]]
-normal_force = <P>
-increments = 3
-[[load]]
-tangential_force = [<Q>, 0.0]
-cycles = 3
-increments = 8
-[[load]]
-shift = [<dx>, 0.0]
-increments = 2
-[[load]]
-shift = [0.0, 0.0]
-increments = 2
-"#;
-const WORN_NUMBERS: [(&str, f64, &str); 9] = [
-    ("h", 0.4, "lower.coatings[0].thickness"),
-    ("E", 3.0, "lower.coatings[0].young"),
-    ("Es", 1.0, "lower.substrate.young"),
-    ("R", 5.0, "profile.sphere.radius"),
-    ("mu", 0.3, "friction.coefficient"),
-    ("k", 0.3, "wear.coefficient"),
-    ("P", 0.15, "load[0].normal_force"),
-    ("Q", 0.035, "load[1].tangential_force[0]"),
-    ("dx", 0.05, "load[2].shift[0]"),
-];
-
-/// Worn volume and depth, and what later increments make of the worn surfaces, by both laws.
-#[test]
-fn wear_is_differentiated_through_cycles_and_stages() {
-    for law in ["energy", "archard"] {
-        let text = WORN.replace("<law>", law);
-        let columns = [
-            "worn_volume",
-            "max_worn_depth",
-            "max_pressure",
-            "approach",
-            "dissipated_energy",
-            "external_work",
-            "tangential_force_x",
-        ];
-        let worst = Written { text: &text, numbers: &WORN_NUMBERS }.worst(&columns);
-        assert!(worst < 1e-5, "{law}: {worst:e}");
-    }
-}
-
-/// Cycles that stand for more than themselves, in jumps whose lengths the numbers do not change: 4, 4 and 2 of ten cycles. What a stage of its own
-/// leaves of them counts once.
-#[test]
-fn wear_is_differentiated_through_jumps_over_cycles() {
-    for (law, wave) in [("energy", "sine"), ("archard", "triangle")] {
-        let text =
-            WORN.replace("<law>", law).replace("cycles = 3", &format!("cycles = 10\nwaveform = \"{wave}\""));
-        let text = text.replace("[solver]", "every = 4\nlargest_step = 1.0\n[solver]");
-        let mut numbers = WORN_NUMBERS;
-        numbers[5].1 = 0.03;
-        let written = Written { text: &text, numbers: &numbers };
-        let cycles = |moved| Simulation::new(&written.plan(moved)).run(&mut Silent).unwrap().cycles;
-        let stands_for: Vec<usize> = cycles(None).iter().map(|cycle| cycle.stands_for).collect();
-        assert_eq!(stands_for, [4, 4, 2]);
-        let columns =
-            ["worn_volume", "max_worn_depth", "max_pressure", "approach", "dissipated_energy", "shift_x"];
-        let worst = written.worst(&columns);
-        assert!(worst < 1e-5, "{law}: {worst:e}");
-        // The energy of one cycle is that of its record, whatever it stands for.
-        let by: Vec<&str> = numbers.iter().map(|(_, _, path)| *path).collect();
-        let found = found(&written.plan(None), &["cycles[1].dissipated_energy"], &by).unwrap();
-        let energy = |moved| cycles(moved)[1].dissipated_energy;
-        let gradient = &found.gradients[0];
-        // 1e-12: a difference of sums ten times as large.
-        assert!((gradient.value / energy(None) - 1.0).abs() < 1e-12, "{}", gradient.value);
-        for (number, (name, value, _)) in numbers.iter().enumerate() {
-            let [up, down] = [1e-5, -1e-5].map(|step| energy(Some((number, step))));
-            let off = gradient.by[number] * value - (up - down) / 2e-5;
-            assert!(off.abs() < 1e-5 * gradient.value, "{law} by {name}: {off:e} of {}", gradient.value);
-        }
-    }
-}
-
-/// A cycle that ends while its load stands takes its wear off then.
-#[test]
-fn wear_is_differentiated_where_a_cycle_ends_while_its_load_stands() {
-    let text = WORN.replace("<law>", "energy").replace(
-        "cycles = 3",
-        "cycles = 6\nwaveform = \"trapezoid\"\nphase = { tangential_force = [90, 0] }",
-    );
-    let text = text.replace("[solver]", "every = 2\nlargest_step = 1.0\n[solver]");
-    let mut numbers = WORN_NUMBERS;
-    (numbers[5].1, numbers[7].1) = (0.03, 0.02);
-    let columns = ["worn_volume", "max_worn_depth", "max_pressure", "dissipated_energy"];
-    let worst = Written { text: &text, numbers: &numbers }.worst_both_ways(&columns, Direction::Forward);
-    assert!(worst < 1e-5, "{worst:e}");
-}
-
-/// By the law of energy the worn volume is the coefficient times the dissipated energy, whatever the numbers; and it is a length cubed: moduli and
-/// forces have no effect on it together with the coefficient, which is one over a pressure.
-#[test]
-fn the_worn_volume_is_the_coefficient_times_the_energy() {
-    let text = WORN.replace("<law>", "energy");
-    let by: Vec<&str> = WORN_NUMBERS.iter().map(|(_, _, path)| *path).collect();
-    let plan = Written { text: &text, numbers: &WORN_NUMBERS }.plan(None);
-    let found = found(&plan, &["worn_volume", "dissipated_energy"], &by).unwrap();
-    let [volume, energy] = [0, 1].map(|of| &found.gradients[of]);
-    let (k, mut scale) = (0.3, 0.0);
-    assert!((volume.value / (k * energy.value) - 1.0).abs() < 1e-12);
-    for (place, (name, value, path)) in WORN_NUMBERS.iter().enumerate() {
-        let own = if *name == "k" { energy.value } else { 0.0 };
-        let expected = k * energy.by[place] + own;
-        let off = (volume.by[place] - expected).abs() * value / volume.value;
-        assert!(off < 1e-8, "{path}: {:e} {expected:e} {off:.1e}", volume.by[place]);
-        let power = match *name {
-            "E" | "Es" | "P" | "Q" => 1.0,
-            "k" => -1.0,
-            _ => 0.0,
-        };
-        scale += power * value * volume.by[place];
-    }
-    assert!((scale / volume.value).abs() < 1e-7, "{scale:e} {:e}", volume.value);
 }

@@ -57,7 +57,7 @@ fn along(plan: &Plan, of: &[String], by: &[&str], direction: Direction) -> Sensi
 
 /// Largest difference of the derivatives of numbers by all of [`NUMBERS`] from central differences of whole runs in steps of a fraction, over the
 /// value and the derivative. Both ways agree to 1e-9.
-fn worst(text: &str, numbers: &[(&str, f64, &str)], of: &[String], step: f64) -> f64 {
+pub fn worst(text: &str, numbers: &[(&str, f64, &str)], of: &[String], step: f64) -> f64 {
     let written = Written { text, numbers };
     let by: Vec<&str> = numbers.iter().map(|(_, _, path)| *path).collect();
     let plan = planned(&written.case(None));
@@ -142,11 +142,17 @@ fn ruiz_parameters_at_their_largest_place_are_differentiated() {
 /// Given depths, tension at the rim of a contact that slides, in a line contact and in a period, where friction and loads are numbers.
 #[test]
 fn stresses_below_lines_and_periods_are_differentiated() {
-    let line = "[grid]\ncells = 64\nsize = 3.0\n[upper]\nrigid = true\n[lower]\nsubstrate = { young = 1.0, poisson = 0.3 }\n\
+    let line = "[grid]\ncells = 64\nsize = 3.0\n[upper]\nrigid = true\n[lower]\n\
+                coatings = [{ thickness = <h>, young = <E>, poisson = 0.25 }]\nsubstrate = { young = <Es>, poisson = <ns> }\n\
                 [profile.cylinder]\nradius = <R>\naxis = \"y\"\n[friction]\ncoefficient = <mu>\n[output]\nfields = [\"pressure\", \"shear\"]\n\
                 [stress]\ndepths = [0.0, 0.2, 0.5]\n[solver]\ntolerance = 1e-11\n[[load]]\nnormal_force = <P>\nincrements = 2\n[[load]]\n\
-                tangential_force = [<Q>, 0.0]\nincrements = 3\n";
+                tangential_force = [<Q>, 0.0]\nbulk_stress = <b>\nincrements = 3\n";
     let numbers = [
+        ("h", 0.35, "lower.coatings[0].thickness"),
+        ("E", 2.0, "lower.coatings[0].young"),
+        ("Es", 1.0, "lower.substrate.young"),
+        ("ns", 0.3, "lower.substrate.poisson"),
+        ("b", 0.02, "load[1].bulk_stress"),
         ("R", 4.0, "profile.cylinder.radius"),
         ("mu", 0.3, "friction.coefficient"),
         ("Q", 0.05, "load[1].tangential_force[0]"),

@@ -37,7 +37,8 @@ class Design:
     """The bounds and limits that the optimum lies at, in words."""
     prices: dict[str, float]
     """Shadow price of every active limit, by its result: by how many per cent the objective gets better when the limit
-    is relaxed by one."""
+    is relaxed by one. Where both limits of a result are active there are two, ``"approach at its lower limit"`` and
+    ``"approach at its upper limit"``."""
     slope: float
     """What is left of the derivatives: by how many per cent the objective changes at most when a number changes by one
     per cent (of the distance of its bounds, where these are not both positive), as far as no active bound or limit is
@@ -200,13 +201,14 @@ def _answer(question: Question, found: Any, nnls: Any) -> Design:
 def _balance(question: Question, variables: Reals, nnls: Any) -> tuple[list[str], dict[str, float], float]:
     """Active bounds and limits, shadow prices, and the slope that they leave (Kuhn and Tucker's conditions)."""
     size = abs(question.objective(variables)) or 1.0
-    words, names, columns, units = [], [], [], []
+    words, columns, units = [], [], []
+    sides: list[tuple[str, str]] = []
     rows = zip(question.results.by, variables, question.low, question.high, question.pairs, strict=True)
     for number, (path, x, low, high, pair) in enumerate(rows):
         for side, at, value, way in (("lower", low, pair[0], 1.0), ("upper", high, pair[1], -1.0)):
             if abs(x - at) <= MET:
                 words.append(f"{path} at its {side} bound, {value:g}")
-                names.append("")
+                sides.append(("", side))
                 units.append(1.0)
                 columns.append(way * np.eye(len(variables))[number])
     _, values, _ = question.found(variables)
@@ -215,16 +217,19 @@ def _balance(question: Question, variables: Reals, nnls: Any) -> tuple[list[str]
         if margin <= MET:
             # A price is that of a per cent of the limit here, which may have moved from the start.
             units.append(1.0 if unit is None else abs(question.value_of(limit, values)) / unit or 1.0)
-            words.append(f"{name} at its {'upper' if sign > 0 else 'lower'} limit, {limit_in_words(limit)}")
-            names.append(name)
+            side = f"{name} at its {'upper' if sign > 0 else 'lower'} limit"
+            words.append(f"{side}, {limit_in_words(limit)}")
+            sides.append((name, side))
             columns.append(row)
     slope = question.slope(variables) / size
     if not columns:
         return [], {}, float(np.abs(slope).max())
     weights, _ = nnls(np.array(columns).T, slope)
     left = slope - np.array(columns).T @ weights
-    priced = zip(names, weights, units, strict=True)
-    prices = {name: float(weight * unit) for name, weight, unit in priced if name}
+    names = [name for name, _ in sides]
+    called = [side if names.count(name) > 1 else name for name, side in sides]
+    priced = zip(names, called, weights, units, strict=True)
+    prices = {key: float(weight * unit) for name, key, weight, unit in priced if name}
     return words, prices, float(np.abs(left).max())
 
 

@@ -51,8 +51,8 @@ def gradient(
     case : path, str or mapping
         As for :func:`fretting.run`.
     of : str or iterable of str
-        Results: a column of the last increment (``"max_pressure"``), of another (``"increments[7].shift_x"``), the
-        energy of a cycle (``"cycles[0].dissipated_energy"``), the largest stress below the surface
+        Results: a column of the last increment (``"max_pressure"``), of another (``"increments[7].shift_x"``), one of a
+        cycle (``"cycles[0].dissipated_energy"``, ``"cycles[0].opening"``), the largest stress below the surface
         (``"stress.von_mises"``, ``"increments[7].stress.interface_shear"``), the largest fatigue parameter of a cycle
         (``"fatigue.crossland"``, ``"cycles[0].fatigue.dang_van"``, ``"fatigue.ruiz_f1"``).
     by : str or iterable of str
@@ -78,8 +78,7 @@ def gradient(
         When the case is refused.
     ValueError
         When a result or a number is not one of the case, or the case is of a kind that is not covered: with wear
-        by more than one coefficient, evolving friction, bulk stress, surfaces that move, or
-        increments in parts.
+        by more than one coefficient, evolving friction, surfaces that move or roll, or increments in parts.
     RunError
         When the run fails, or the linear equations of an increment are not solved.
     """
@@ -129,8 +128,9 @@ def vjp(
         As for :func:`fretting.run`.
     weights : mapping of str to float or array
         The weight of every result, such as the derivatives of a loss by the results. Of a field its weights in all
-        cells, with the shape of the field: ``"pressure"``, ``"shear_x"`` and ``"shear_y"`` of the last increment, or
-        of another (``"increments[7].pressure"``).
+        cells, with the shape of the field: ``"pressure"``, ``"shear_x"``, ``"shear_y"``, relative slip since the start
+        ``"slip_x"``, ``"slip_y"`` and ``"worn_depth"`` of the last increment, or of another
+        (``"increments[7].pressure"``).
     by : str or iterable of str
         Numbers of the case, as for :func:`gradient`. Default: all there are.
     threads : int, optional

@@ -69,6 +69,22 @@ def test_an_optimum_at_a_limit_is_that_of_the_closed_form() -> None:
         assert found.slope < 1e-6
 
 
+def test_both_limits_of_a_result_have_their_prices() -> None:
+    """Limits of a pressure so near to each other that both count as active: the upper one costs approach, as above."""
+    limit, _ = pressure_and_approach(200e9)
+    found = fretting.design(
+        ball(90e9),
+        by={YOUNG: (50e9, 400e9)},
+        minimize="approach",
+        limits={"max_pressure": (limit * (1 - 4e-5), limit * (1 + 4e-5))},
+    )
+    assert found.numbers[YOUNG] == pytest.approx(200e9, rel=GRID)
+    assert len(found.active) == 2
+    assert found.prices["max_pressure at its upper limit"] == pytest.approx(1.0, abs=0.03)
+    assert found.prices["max_pressure at its lower limit"] == 0.0
+    assert len(found.prices) == 2
+
+
 def softest(start: float, share: float) -> fretting.Design:
     """The softest half-space under a rigid ball (3 mm, 2 N) whose pressure is no more than a part of its modulus."""
     case = {

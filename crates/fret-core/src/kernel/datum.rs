@@ -1,38 +1,58 @@
 //! Where displacements of a line contact are counted from: a point of each body below the load.
 
 use super::depth_response::DepthResponse;
+use super::lattice_samples::{DepthChange, WaveResponse};
+use super::stack_layer::LayerChanges;
+use crate::fields::Dual;
 use crate::model::{Base, Body, ContactPair, ElasticMaterial, HalfSpace};
 
 /// The displacement of the datum of both bodies by a line load above it: of the point `depth` below the load in every body with an
-/// elastic base. A body on a rigid base has a zero of its own, and a rigid body does not move.
-#[derive(Clone, Debug)]
-pub(super) struct Datum {
+/// elastic base. A body on a rigid base has a zero of its own, and a rigid body does not move. Or how that displacement changes with a
+/// parameter.
+pub(super) struct Datum<R = DepthResponse> {
     depth: f64,
-    bodies: Vec<DepthResponse>,
-    /// Whether each of these bodies is one material throughout, and its shear modulus.
-    moduli: Option<Vec<f64>>,
+    bodies: Vec<R>,
+    /// `1/(2 G)` of all these bodies together, where each is one material throughout, or its derivative.
+    halves: Option<f64>,
 }
 
 impl Datum {
     /// The datum of a pair, `depth` \[length\] below both surfaces.
     pub(super) fn new(pair: &ContactPair, depth: f64) -> Self {
-        let bodies = || {
-            [pair.lower(), pair.upper()].into_iter().filter_map(|body| match body {
-                Body::Elastic(half_space) if *half_space.base() != Base::Rigid => Some(half_space),
-                _ => None,
-            })
+        let bodies = || bodies_with_datum(pair).map(|(_, half_space)| half_space);
+        let half = |half_space: &HalfSpace| {
+            half_space.single_material().map(|material| 0.5 / ElasticMaterial::shear_modulus(material))
         };
-        let modulus =
-            |half_space: &HalfSpace| half_space.single_material().map(ElasticMaterial::shear_modulus);
         Self {
             depth,
             bodies: bodies()
                 .map(|half_space| DepthResponse::new(half_space, layer_at(half_space, depth), depth))
                 .collect(),
-            moduli: bodies().map(modulus).collect(),
+            halves: bodies().map(half).sum(),
         }
     }
+}
 
+impl Datum<DepthChange> {
+    /// How it changes with a parameter, by the derivatives of the constants of the layers of the lower and of the upper body, from the surface down,
+    /// those of the substrate last. The datum stays at its depth.
+    pub(super) fn change(pair: &ContactPair, changes: [&[LayerChanges]; 2], depth: f64) -> Self {
+        let bodies = || bodies_with_datum(pair).map(|(body, half_space)| (half_space, changes[body]));
+        let half = |(half_space, changes): (&HalfSpace, &[LayerChanges])| {
+            let material = half_space.single_material().filter(|_| half_space.coatings().is_empty())?;
+            let change = changes.last().copied().unwrap_or_default();
+            // 1/(2 G) = (1 + nu)/E
+            let by_young = -(1.0 + material.poisson()) / (material.young() * material.young());
+            Some(by_young * change.young + change.poisson / material.young())
+        };
+        let below = |(half_space, changes): (&HalfSpace, &[LayerChanges])| {
+            DepthChange::new(half_space, changes, (layer_at(half_space, depth), Dual::new(depth, 0.0)))
+        };
+        Self { depth, bodies: bodies().map(below).collect(), halves: bodies().map(half).sum() }
+    }
+}
+
+impl<R: WaveResponse> Datum<R> {
     /// Depth of the datum \[length\].
     pub(super) fn depth(&self) -> f64 {
         self.depth
@@ -40,14 +60,14 @@ impl Datum {
 
     /// The longest length of the problem \[length\].
     pub(super) fn longest_length(&self) -> f64 {
-        self.bodies.iter().map(DepthResponse::longest_length).fold(self.depth, f64::max)
+        self.bodies.iter().map(WaveResponse::longest_length).fold(self.depth, f64::max)
     }
 
     /// Displacement times k: `u_z` from pressure, `u_x` from `q_x`, `u_y` from `q_y`.
     pub(super) fn times_wavenumber(&self, k: f64) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for body in &self.bodies {
-            let found = body.at(k);
+            let found = body.transfer(k);
             sum[0] += found.depthwise[1];
             sum[1] += found.tangential[0];
             sum[2] += found.sideways;
@@ -59,9 +79,16 @@ impl Datum {
     /// along a normal force, minus that along a force across the line (Flamant; Johnson 1985, *Contact Mechanics*, 2.2). None
     /// when a body has layers.
     pub(super) fn constants(&self) -> Option<[f64; 3]> {
-        let halves: f64 = self.moduli.as_ref()?.iter().map(|modulus| 0.5 / modulus).sum();
-        Some([halves, -halves, 0.0])
+        self.halves.map(|halves| [halves, -halves, 0.0])
     }
+}
+
+/// The bodies with an elastic base: which of both it is (0: lower, 1: upper), and its layers.
+fn bodies_with_datum(pair: &ContactPair) -> impl Iterator<Item = (usize, &HalfSpace)> {
+    [pair.lower(), pair.upper()].into_iter().enumerate().filter_map(|(number, body)| match body {
+        Body::Elastic(half_space) if *half_space.base() != Base::Rigid => Some((number, half_space)),
+        _ => None,
+    })
 }
 
 /// The layer in which a depth lies.

@@ -5,8 +5,10 @@ use ndarray::Array2;
 use super::cell_rules::CellQuadrature;
 use super::datum::Datum;
 use super::influence::{Components, InfluenceCoefficients};
+use super::lattice_samples::{ResponseChange, WaveResponse};
 use super::line_kernels::LineKernels;
 use super::pair_response::PairResponse;
+use super::stack_layer::LayerChanges;
 use crate::model::ContactPair;
 
 /// Influence coefficients of a line contact: displacement of the middle of the strip at offset `i` across the line by unit
@@ -38,8 +40,33 @@ pub fn line_coefficients_of(
     datum: f64,
     wanted: Components,
 ) -> InfluenceCoefficients {
+    coefficients(response, &Datum::new(pair, datum), strips, spacing, wanted)
+}
+
+/// How the coefficients of a pair change with a parameter, by the derivatives of the constants of the layers of its lower and of its upper body,
+/// from the surface down, those of the substrate last; the datum stays at its depth. By the same quadrature: to about 1e-13 of the derivative of
+/// the coefficient at offset 0.
+pub fn line_coefficients_by(
+    pair: &ContactPair,
+    changes: [&[LayerChanges]; 2],
+    strips: usize,
+    spacing: f64,
+    datum: f64,
+    wanted: Components,
+) -> InfluenceCoefficients {
+    let datum = Datum::change(pair, changes, datum);
+    coefficients(&ResponseChange::new(pair, changes), &datum, strips, spacing, wanted)
+}
+
+fn coefficients(
+    response: &impl WaveResponse,
+    datum: &Datum<impl WaveResponse>,
+    strips: usize,
+    spacing: f64,
+    wanted: Components,
+) -> InfluenceCoefficients {
     let half = 0.5 * spacing;
-    let kernels = LineKernels::new(response, &Datum::new(pair, datum), half, strips as f64 * spacing);
+    let kernels = LineKernels::new(response, datum, half, strips as f64 * spacing);
     let quadrature = CellQuadrature::new();
     let values: Vec<[f64; 4]> = (0..strips)
         .map(|i| match i {

@@ -20,10 +20,10 @@ use rayon::prelude::*;
 
 use super::complex::{Complex, Wavenumber};
 use super::datum::Datum;
-use super::frequency_response::{Response, ResponseTimesK};
+use super::depth_response::Transfer;
 use super::hankel_lattice::{ANGLE, LEAST_LOG, STEPS_PER_E_FOLD};
 use super::interpolation::{REACH, interpolated};
-use super::pair_response::PairResponse;
+use super::lattice_samples::WaveResponse;
 use super::panels::Panels;
 
 /// Kernels side by side: zz, xx, yy, zx.
@@ -146,16 +146,17 @@ struct LatticeResponse<'a> {
     level: Lanes,
 }
 
-fn lanes<T: Wavenumber>(response: ResponseTimesK<T>) -> [T; 4] {
-    [response.zz, response.rr, response.tt, response.rz]
+fn lanes<T: Wavenumber>(of: &Transfer<T>) -> [T; 4] {
+    let ([rr, _], [rz, zz]) = (of.tangential, of.depthwise);
+    [zz, rr, of.sideways, rz]
 }
 
 impl<'a> LatticeResponse<'a> {
     /// Samples the response for distances from `radius exp(-before step)` to `greatest`.
     fn new(
         lattice: &'a LineLattice,
-        pair: &PairResponse,
-        datum: &Datum,
+        pair: &impl WaveResponse,
+        datum: &Datum<impl WaveResponse>,
         radius: f64,
         greatest: f64,
         before: i32,
@@ -167,14 +168,14 @@ impl<'a> LatticeResponse<'a> {
         let real: Vec<Lanes> = (first..lattice.last_real() + before + 1)
             .into_par_iter()
             .with_min_len(32)
-            .map(|m| lanes(pair.times_wavenumber(wavenumber(m))))
+            .map(|m| lanes(&pair.transfer(wavenumber(m))))
             .collect();
         let direction = Complex::polar(1.0, lattice.angle);
         let ray = (first..lattice.last_ray() + before + 1)
             .into_par_iter()
             .with_min_len(32)
             .map(|m| {
-                let response = lanes(pair.times_wavenumber(direction * wavenumber(m)));
+                let response = lanes(&pair.transfer(direction * wavenumber(m)));
                 [response.map(|d| d.re), response.map(|d| d.im)]
             })
             .collect();
@@ -262,18 +263,28 @@ pub(super) struct LineKernels {
 
 impl LineKernels {
     /// Tabulates the kernels from `least` to `greatest` distance; `least` is also the half-width over which the means are taken.
-    pub(super) fn new(pair: &PairResponse, datum: &Datum, least: f64, greatest: f64) -> Self {
+    pub(super) fn new(
+        pair: &impl WaveResponse,
+        datum: &Datum<impl WaveResponse>,
+        least: f64,
+        greatest: f64,
+    ) -> Self {
         match (pair.constant(), datum.constants()) {
             (Some(response), Some(constants)) => {
-                Self::homogeneous(response, constants, datum.depth(), least, greatest)
+                Self::homogeneous(lanes(&response), constants, datum.depth(), least, greatest)
             }
             _ => Self::layered(LineLattice::standard(), pair, datum, least, greatest),
         }
     }
 
     /// Half-spaces without layers (Flamant): `D/pi log(depth/x)` plus a constant.
-    fn homogeneous(response: Response, constants: [f64; 3], depth: f64, least: f64, greatest: f64) -> Self {
-        let Response { zz, rr, rz, tt } = response;
+    fn homogeneous(
+        [zz, rr, tt, rz]: Lanes,
+        constants: [f64; 3],
+        depth: f64,
+        least: f64,
+        greatest: f64,
+    ) -> Self {
         let self_terms = [zz, rr, tt];
         let at = |logarithm: f64| {
             [0, 1, 2].map(|lane| (self_terms[lane] * logarithm - constants[lane]) * FRAC_1_PI)
@@ -286,7 +297,13 @@ impl LineKernels {
     }
 
     /// Any pair, by its frequency response on the given lattice.
-    fn layered(lattice: &LineLattice, pair: &PairResponse, datum: &Datum, least: f64, greatest: f64) -> Self {
+    fn layered(
+        lattice: &LineLattice,
+        pair: &impl WaveResponse,
+        datum: &Datum<impl WaveResponse>,
+        least: f64,
+        greatest: f64,
+    ) -> Self {
         // a panel reaches a quarter octave of the square beyond its ends, the interpolation REACH points further
         let margin = REACH as i32 + 1 + (0.5 * libm::log(1.25) / lattice.step).ceil() as i32;
         let response = LatticeResponse::new(lattice, pair, datum, least, greatest, margin);

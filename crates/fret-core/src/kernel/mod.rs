@@ -56,7 +56,7 @@ pub use influence::{
 };
 pub use lattice_samples::ResponseChange;
 pub(crate) use lattice_samples::{BelowSurface, DepthChange};
-pub use line_influence::{line_coefficients, line_coefficients_of};
+pub use line_influence::{line_coefficients, line_coefficients_by, line_coefficients_of};
 pub use pair_response::PairResponse;
 pub use periodic::{PeriodicSymbols, periodic_symbols, symbols_by, symbols_of, uniform_response};
 pub use repeated_influence::repeated_coefficients;

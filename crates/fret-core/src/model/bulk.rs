@@ -2,6 +2,7 @@
 
 use super::dimension::Dimension;
 use super::half_space::{Base, Body, ContactPair, ElasticMaterial, HalfSpace};
+use crate::fields::{Scalar, Slopes};
 
 /// Strains of the surfaces of a pair under the bulk stresses of its substrates.
 ///
@@ -28,6 +29,22 @@ impl BulkCompliance {
             }
         };
         Self { bodies: [of(pair.lower()), of(pair.upper())] }
+    }
+
+    /// The derivative of that of a pair by Young's modulus (0) or Poisson's ratio (1) of the substrate of a body (0: lower, 1: upper).
+    pub fn slope(pair: &ContactPair, dimension: Dimension, body: usize, constant: usize) -> Self {
+        let mut bodies = [[0.0; 2]; 2];
+        if let Some(material) = substrate([pair.lower(), pair.upper()][body]) {
+            let (young, poisson) = (material.young(), material.poisson());
+            let plane = 1.0 - poisson * poisson;
+            bodies[body] = match (dimension, constant) {
+                (Dimension::Plane, 0) => [-1.0 / (young * young), poisson / (young * young)],
+                (Dimension::Plane, _) => [0.0, -1.0 / young],
+                (Dimension::Line, 0) => [-plane / (young * young), 0.0],
+                (Dimension::Line, _) => [-2.0 * poisson / young, 0.0],
+            };
+        }
+        Self { bodies }
     }
 
     /// Strain of the lower surface less that of the upper one along x and y [-], under the bulk stresses `[lower, upper]`, each along
@@ -68,17 +85,41 @@ pub fn bulk_stress_in_layer(
 ) -> [f64; 2] {
     let Base::Elastic(base) = half_space.base() else { return [0.0; 2] };
     let material = half_space.coatings().get(layer).map_or(base, |coating| coating.material());
-    let [x, y] = bulk_stress;
     if material == base && dimension == Dimension::Plane {
         return bulk_stress;
     }
-    let (young, poisson) = (base.young(), base.poisson());
+    let of = |material: &ElasticMaterial| [material.young(), material.poisson()];
+    stress_under_one_strain(bulk_stress, [of(base), of(material)], dimension)
+}
+
+/// Derivatives of that stress along x and y by Young's modulus and Poisson's ratio of the substrate, and by those of the layer.
+pub fn slopes_of_bulk_stress_in_layer(
+    half_space: &HalfSpace,
+    layer: usize,
+    bulk_stress: [f64; 2],
+    dimension: Dimension,
+) -> [[f64; 4]; 2] {
+    let Base::Elastic(base) = half_space.base() else { return [[0.0; 4]; 2] };
+    let material = half_space.coatings().get(layer).map_or(base, |coating| coating.material());
+    let inputs = [base.young(), base.poisson(), material.young(), material.poisson()];
+    let [base_young, base_poisson, young, poisson] = Slopes::<4>::of_each(inputs);
+    let stress = bulk_stress.map(Scalar::of);
+    stress_under_one_strain(stress, [[base_young, base_poisson], [young, poisson]], dimension)
+        .map(|part| part.by)
+}
+
+/// Stress of a layer along x and y under the strain of a substrate under a stress; of both Young's modulus and Poisson's ratio.
+fn stress_under_one_strain<R: Scalar>(
+    [x, y]: [R; 2],
+    [[young, poisson], [of_layer, nu]]: [[R; 2]; 2],
+    dimension: Dimension,
+) -> [R; 2] {
+    let one = R::of(1.0);
     let [along_x, along_y] = match dimension {
         Dimension::Plane => [(x - poisson * y) / young, (y - poisson * x) / young],
-        Dimension::Line => [x * (1.0 - poisson * poisson) / young, 0.0],
+        Dimension::Line => [x * (one - poisson * poisson) / young, R::of(0.0)],
     };
-    let nu = material.poisson();
-    let stiffness = material.young() / (1.0 - nu * nu);
+    let stiffness = of_layer / (one - nu * nu);
     [stiffness * (along_x + nu * along_y), stiffness * (along_y + nu * along_x)]
 }
 

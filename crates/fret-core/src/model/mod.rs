@@ -35,7 +35,7 @@ pub mod wear_layers;
 pub use crate::fields::TangentialField;
 pub use accumulated::AccumulatedSlip;
 pub use beyond::Beyond;
-pub use bulk::{BulkCompliance, bulk_stress_in_layer};
+pub use bulk::{BulkCompliance, bulk_stress_in_layer, slopes_of_bulk_stress_in_layer};
 pub use conduction::{ConductingLayer, Conduction, Conductor, ConductorError};
 pub use digest::digest;
 pub use dimension::Dimension;

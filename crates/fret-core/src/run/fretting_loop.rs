@@ -3,8 +3,8 @@
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
+use super::cycle_reading::{CycleReading, Point};
 use super::evolving::Evolved;
-use super::loop_reading::{LoopPoint, LoopReading};
 use super::recording::mean_coefficient;
 use super::thinning::LayersWorn;
 use crate::fields::stored;
@@ -14,33 +14,28 @@ use crate::history::{
 use crate::model::{ContactState, CoulombFriction, Rig, Zone};
 use crate::solver::friction_bounds;
 
-/// Force and moment, shift and twist at the end of an increment.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-struct Point {
-    force: [f64; 2],
-    moment: f64,
-    shift: [f64; 2],
-    twist: f64,
-    /// Way by which all of the contact has slid at the end of the increment [length].
-    slid: f64,
-    /// Energy dissipated so far less the work of the bulk stress [force x length].
-    dissipated: f64,
-}
-
-/// Way by which all of the contact has slid at the end of the increment between two states [length]: the least slip of a cell, for those
-/// that slip last are the last to have let go. 0 where some cells stick.
-pub fn slid(before: &ContactState, after: &ContactState) -> f64 {
-    let mut least = f64::INFINITY;
-    for (at, zone) in after.zone.indexed_iter() {
+/// The cell that slips least in the increment between two states, and its slip [length]: those that slip last are the last to have let go. `None`
+/// where some cells stick.
+pub fn last_to_slide(before: &ContactState, after: &ContactState) -> Option<([usize; 2], [f64; 2])> {
+    let (mut least, mut found) = (f64::INFINITY, None);
+    for ((i, j), zone) in after.zone.indexed_iter() {
+        let at = [i, j];
         if *zone == Zone::Stick {
-            return 0.0;
+            return None;
         }
         if *zone == Zone::Slip && before.zone[at] != Zone::Open {
             let [x, y] = [0, 1].map(|axis| after.slip[axis][at] - before.slip[axis][at]);
-            least = least.min(x.hypot(y));
+            if x.hypot(y) < least {
+                (least, found) = (x.hypot(y), Some((at, [x, y])));
+            }
         }
     }
-    if least.is_finite() { least } else { 0.0 }
+    found
+}
+
+/// Way by which all of the contact has slid at the end of the increment between two states [length]; 0 where some cells stick.
+pub fn slid(before: &ContactState, after: &ContactState) -> f64 {
+    last_to_slide(before, after).map_or(0.0, |(_, [x, y])| x.hypot(y))
 }
 
 /// What the end of a cycle is compared with, besides the first point.
@@ -55,9 +50,6 @@ struct Start {
     unresolved_energy: f64,
     bulk_work: f64,
 }
-
-/// Cosine of the angle to its axis within which an increment of motion is one along it.
-const STRAIGHT: f64 = 0.9999;
 
 /// Follows one cycle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -170,47 +162,12 @@ impl FrettingLoop {
 
     /// The record of the cycle that ends in `state`.
     pub fn close(&self, state: &ContactState, friction: &CoulombFriction, end: CycleEnd) -> CycleRecord {
-        let direction = main_axis(&self.points);
-        let (cos, sin) = (direction.cos(), direction.sin());
-        let along = |[x, y]: [f64; 2]| x * cos + y * sin;
-        let slid = self.slid_along(direction);
-        let tangential = |displacement: &dyn Fn(&Point) -> [f64; 2]| {
-            let point = |(p, slid): (&Point, &f64)| LoopPoint {
-                force: along(p.force),
-                displacement: along(displacement(p)),
-                slid: *slid,
-                dissipated: p.dissipated,
-            };
-            LoopReading::of(&self.points.iter().zip(&slid).map(point).collect::<Vec<_>>())
-        };
-        // Twisted, the last cell slips after a twist beyond all bounds: such a loop has no plateau.
-        let torsional = self.points.iter().map(|p| LoopPoint {
-            force: p.moment,
-            displacement: p.twist,
-            slid: 0.0,
-            dissipated: 0.0,
-        });
-        let sideways = tangential(&|point| point.shift);
-        let about = LoopReading::of(&torsional.collect::<Vec<_>>());
-        let drive =
-            if about.work_scale() > sideways.work_scale() { Drive::Torsional } else { Drive::Tangential };
-        let read = if drive == Drive::Torsional { about } else { sideways };
         let dissipated_energy = state.dissipated_energy - self.start.dissipated_energy;
-        let moves = read.work_scale() > 0.0;
-        let energy_ratio = moves.then(|| dissipated_energy / (4.0 * read.work_scale()));
+        let rig = end.rig.map(|rig| rig.tangential);
+        let reading = CycleReading::of(&self.points, dissipated_energy, rig);
+        let CycleReading { drive, direction, read, at_actuator, .. } = reading;
+        let energy_ratio = reading.energy_ratio(&read);
         let closure = self.closure(state, friction);
-        let at_actuator = end.rig.filter(|_| drive == Drive::Tangential).map(|rig| {
-            let far = tangential(&|point| rig.actuator(point.shift, point.force));
-            if !read.slides {
-                return far;
-            }
-            // At the middle force the machine gives the same on both sides, and after reversal it is in series with the contact.
-            let [x, y] = rig.tangential;
-            let gives = x * cos * cos + y * sin * sin;
-            let stiffness = read.stiffness.map(|slope| (slope.recip() + gives).recip());
-            LoopReading { opening: read.opening, stiffness, ..far }
-        });
-        let moving = at_actuator.as_ref().filter(|far| far.work_scale() > 0.0);
         CycleRecord {
             stage: self.stage,
             cycle: self.cycle,
@@ -227,7 +184,7 @@ impl FrettingLoop {
             displacement_amplitude: read.displacement_amplitude,
             opening: read.opening,
             energy_ratio,
-            sliding_ratio: moves.then(|| read.opening / read.displacement_amplitude),
+            sliding_ratio: read.sliding_ratio(),
             stiffness: read.stiffness,
             regime: self.regime(drive, energy_ratio),
             closure,
@@ -243,21 +200,11 @@ impl FrettingLoop {
             wear_jump_error: end.wear_jump_error,
             debris_volume: end.debris.map(|debris| debris.volume),
             debris_outflow: end.debris.map(|debris| debris.outflow),
-            actuator_amplitude: at_actuator.as_ref().map(|far| far.displacement_amplitude),
-            actuator_energy_ratio: moving.map(|far| dissipated_energy / (4.0 * far.work_scale())),
-            actuator_sliding_ratio: moving.map(|far| far.opening / far.displacement_amplitude),
-            actuator_stiffness: at_actuator.as_ref().and_then(|far| far.stiffness),
+            actuator_amplitude: at_actuator.map(|far| far.displacement_amplitude),
+            actuator_energy_ratio: at_actuator.and_then(|far| reading.energy_ratio(&far)),
+            actuator_sliding_ratio: at_actuator.and_then(|far| far.sliding_ratio()),
+            actuator_stiffness: at_actuator.and_then(|far| far.stiffness),
         }
-    }
-
-    /// Way by which all of the contact has slid at the end of each increment, where it moved along an axis; 0 where it did not.
-    fn slid_along(&self, direction: f64) -> Vec<f64> {
-        let of = |pair: &[Point]| {
-            let [x, y] = [0, 1].map(|axis| pair[1].shift[axis] - pair[0].shift[axis]);
-            let along = (x * direction.cos() + y * direction.sin()).abs();
-            if along >= STRAIGHT * x.hypot(y) { pair[1].slid } else { 0.0 }
-        };
-        std::iter::once(0.0).chain(self.points.windows(2).map(of)).collect()
     }
 
     fn regime(&self, drive: Drive, energy_ratio: Option<f64>) -> Option<CycleRegime> {
@@ -309,19 +256,4 @@ impl FrettingLoop {
         .into_iter()
         .fold(0.0, f64::max)
     }
-}
-
-/// Direction in which the force varies most [rad], within a quarter turn of x.
-fn main_axis(points: &[Point]) -> f64 {
-    let n = points.len() as f64;
-    let mean = |axis: usize| points.iter().map(|point| point.force[axis]).sum::<f64>() / n;
-    let (x, y) = (mean(0), mean(1));
-    let (mut xx, mut yy, mut xy) = (0.0, 0.0, 0.0);
-    for point in points {
-        let (dx, dy) = (point.force[0] - x, point.force[1] - y);
-        xx += dx * dx;
-        yy += dy * dy;
-        xy += dx * dy;
-    }
-    0.5 * (2.0 * xy).atan2(xx - yy)
 }

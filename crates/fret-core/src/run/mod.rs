@@ -2,6 +2,7 @@
 
 mod beginning;
 mod checkpoint;
+mod cycle_reading;
 mod debris;
 mod evolving;
 mod fretting_loop;
@@ -31,6 +32,8 @@ mod thinning;
 mod wear;
 
 pub use checkpoint::{Checkpoint, CheckpointError, Waypoint};
+pub(crate) use cycle_reading::{CycleReading, Point};
+pub(crate) use fretting_loop::last_to_slide;
 pub use in_common::{InCommon, beginnings};
 pub use observer::{Iteration, Observer, Silent};
 pub(crate) use pair_compliance::PairCompliance;

@@ -2,7 +2,7 @@
 
 use super::cell::MOTIONS;
 use super::cell_rows::sums_with;
-use super::change::{Change, Solution, add};
+use super::change::{Change, ENERGIES, Solution, add};
 use super::contact::Drive;
 use super::energies::{Energies, Inputs, Outputs};
 use super::rule::{PathChange, Rule, combination, product};
@@ -10,9 +10,9 @@ use super::scene::{MOTION_OF, Scene};
 use super::slip::Slip;
 use super::solved::{Solved, at, deep_by, moved_by};
 use super::wear::Wear;
-use crate::fields::{Slopes, add_scaled};
+use crate::fields::{Slopes, add_scaled, dot};
 use crate::model::{CoulombFriction, Zone};
-use crate::solver::rate_since_touch;
+use crate::solver::{ContactSet, rate_since_touch};
 
 /// A cell that has come into contact: what the rule of slip takes for its drift, by drift, offset and moment of touch.
 struct Entered {
@@ -24,6 +24,7 @@ struct Entered {
 /// What an increment leaves behind, linearised.
 pub(super) struct After<'a> {
     scene: &'a Scene<'a>,
+    contact: &'a ContactSet,
     /// Forces of the whole contact [force].
     forces: [f64; 6],
     entered: Vec<Entered>,
@@ -56,7 +57,8 @@ impl<'a> After<'a> {
         let energies = Energies::new(scene, [now, before], (law, rule));
         let wear = scene.plan.case.wear.as_ref().map(|of| Wear::new(of, scene, [now, before], (law, rule)));
         let slip = scene.tells_slip.then(|| Slip::new(scene, [now, before], (law, rule)));
-        Self { scene, forces, entered, energies, slip, wear, goes_on, block: now.block }
+        let (contact, block) = (&now.contact, now.block);
+        Self { scene, contact, forces, entered, energies, slip, wear, goes_on, block }
     }
 
     /// Completes the changes of `next`, of which the loads are known.
@@ -78,13 +80,15 @@ impl<'a> After<'a> {
             next.gap[cell] = drive.gap[cell] + worn + normal[cell] - deep_by(&solution.motions, place);
             if scene.is_frictional() {
                 let [x, y] = moved_by(&solution.motions, place);
-                next.slid[0][cell] = x - along_x[cell];
-                next.slid[1][cell] = y - along_y[cell];
+                next.slid[0][cell] = x - along_x[cell] - next.strain[0] * place[0];
+                next.slid[1][cell] = y - along_y[cell] - next.strain[1] * place[1];
                 for axis in 0..2 {
                     next.drift[axis][cell] = next.slid[axis][cell] - before.slid[axis][cell];
                 }
             }
         }
+        // What the equations ask for: they leave a little of it.
+        self.contact.cells().for_each(|cell| next.gap[cell] = 0.0);
         next.energies =
             self.energies.forward(&Inputs { before, next, solution, paths, friction: drive.friction });
         if let Some(slip) = &self.slip {
@@ -164,12 +168,13 @@ impl<'a> After<'a> {
             let Drive { friction, .. } = drive;
             slip.transposed(&of, &mut Outputs { before, next, solution: &mut solution, paths, friction });
         }
-        if next.energies != [0.0; 5] {
+        if next.energies != [0.0; ENERGIES] {
             let energies = next.energies;
             let Drive { friction, .. } = drive;
             let mut to = Outputs { before, next, solution: &mut solution, paths, friction };
             self.energies.transposed(energies, &mut to);
         }
+        self.contact.cells().for_each(|cell| next.gap[cell] = 0.0);
         add_scaled(&mut drive.gap, 1.0, &next.gap);
         if !before.worn.is_empty() {
             add_scaled(&mut before.worn, 1.0, &next.gap);
@@ -182,6 +187,7 @@ impl<'a> After<'a> {
                 add_scaled(&mut before.slid[axis], -1.0, &next.drift[axis]);
                 add_scaled(&mut next.slid[axis], 1.0, &next.drift[axis]);
                 add_scaled(&mut solution.displacements[1 + axis], -1.0, &next.slid[axis]);
+                next.strain[axis] -= dot(&scene.places[axis], &next.slid[axis]);
             }
         }
         let sums = sums_with(&scene.places, [&next.gap, &next.slid[0], &next.slid[1]]);

@@ -10,13 +10,14 @@ use super::error::SensitivityError;
 use super::events::{NearEvents, SideOfEvents, cells_near_events, with_cells};
 use super::forward::change_of_gap;
 use super::increment::{ENOUGH, Increment};
-use super::objective::{Column, Row};
 use super::operators::Operators;
 use super::parameter::Parameter;
 use super::past::Past;
+use super::row::{Column, Composed, Row};
 use super::scene::Scene;
 use super::snapshot::Snapshot;
 use super::solved::Solved;
+use super::strain::{STRESSES, Strain};
 use super::work::Work;
 use crate::fields::{add_scaled, dot};
 use crate::model::controls::FREEDOMS;
@@ -31,6 +32,13 @@ pub(super) struct Target {
 }
 
 impl Target {
+    /// Adds a result that is made of columns, by a weight.
+    pub fn add(&mut self, weight: f64, of: Composed) {
+        self.value += weight * of.value;
+        self.columns.extend(of.columns.into_iter().map(|(at, column, by)| (at, column, weight * by)));
+        add_scaled(&mut self.aside, weight, &of.by);
+    }
+
     /// Its derivatives by all numbers, from those of its columns.
     pub fn with_aside(&self, mut by: Vec<f64>) -> Vec<f64> {
         add_scaled(&mut by, 1.0, &self.aside);
@@ -45,6 +53,8 @@ struct Gathered {
     gap: Vec<f64>,
     rig: [f64; 3],
     wear: f64,
+    /// Of the strains along x and y, each times a bulk stress.
+    strain: [[f64; STRESSES]; 2],
     /// Coefficient and strength, and numbers of the controls, stage by stage.
     friction: Vec<[f64; 2]>,
     controls: Vec<[f64; FREEDOMS]>,
@@ -58,6 +68,7 @@ impl Gathered {
             changes: [(); 3].map(|()| scene.no_change()),
             gap: vec![0.0; scene.region.len()],
             wear: 0.0,
+            strain: [[0.0; STRESSES]; 2],
             rig: [0.0; 3],
             friction: vec![[0.0; 2]; stages],
             controls: vec![[0.0; FREEDOMS]; stages],
@@ -73,13 +84,15 @@ impl Gathered {
         }
     }
 
-    /// Its derivative by a number that is no constant of a body.
+    /// Its derivative by a number, without what a constant of a body does by the response.
     fn by(&self, parameter: &Parameter, scene: &Scene<'_>) -> f64 {
         let case = &scene.plan.case;
         let mut sum = self.wear * parameter.change_of_wear();
         if parameter.is_of_shape() {
             sum += dot(&self.gap, &change_of_gap(parameter, scene));
         }
+        let strain = parameter.of_body().and_then(|number| Strain::by(scene.plan, number, scene.length));
+        sum += strain.map_or(0.0, |strain| strain.times(&self.strain));
         for (of, by) in self.rig.iter().zip(parameter.change_of_rig(case)) {
             sum += of * by;
         }
@@ -176,6 +189,10 @@ pub(super) fn backward(
                 *sum += by;
             }
             gathered.wear += drive.wear;
+            for (sums, of) in gathered.strain.iter_mut().zip(drive.strain) {
+                let stresses = load.step.bulk_stress.as_flattened();
+                sums.iter_mut().zip(stresses).for_each(|(sum, stress)| *sum += of * stress);
+            }
             constants.take(objective, &now.tractions, &drive.response);
             gathered.changes.rotate_left(1);
         }

@@ -2,8 +2,9 @@
 
 use super::beneath::{Beneath, Found, Number};
 use super::error::SensitivityError;
-use super::largest::{Below, Largest};
+use super::largest::Largest;
 use super::parameter::Parameter;
+use super::row::Composed;
 use super::ruiz::ruiz;
 use super::scene::Scene;
 use super::snapshot::Snapshot;
@@ -14,7 +15,7 @@ pub(super) fn below(
     steps: &[Snapshot],
     numbers: &[(String, Number)],
     parameters: &[Parameter],
-) -> Result<Vec<Below>, SensitivityError> {
+) -> Result<Vec<Composed>, SensitivityError> {
     if numbers.is_empty() {
         return Ok(Vec::new());
     }

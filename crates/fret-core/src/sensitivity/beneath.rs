@@ -102,10 +102,7 @@ impl<'a> Beneath<'a> {
         let bytes = memory_of_stress(plan.grid.len(), asked.clone().count());
         memory::check(bytes).map_err(|error| RunError::OutOfMemory { increment: 0, error })?;
         let sign = if side == Side::Lower { 1.0 } else { -1.0 };
-        let even = EvenStress {
-            bulk: [0.0; 2],
-            residual: plan.case.residual_stress[usize::from(side == Side::Upper)].clone(),
-        };
+        let body = usize::from(side == Side::Upper);
         let surface = |(increment, step): (usize, &Snapshot)| {
             let part = step.state();
             let whole = MirroredState { part: &part, symmetry }.whole();
@@ -115,7 +112,10 @@ impl<'a> Beneath<'a> {
                 pressure: whole.pressure.clone(),
                 shear: (!plan.case.is_frictionless()).then_some(shear),
                 slip: step.slip.is_some().then(|| whole.slip.clone()),
-                even: even.clone(),
+                even: EvenStress {
+                    bulk: part.bulk_stress[body],
+                    residual: plan.case.residual_stress[body].clone(),
+                },
             }
         };
         let surfaces = asked.map(surface).collect();

@@ -2,7 +2,9 @@
 
 use super::parameter::{BodyNumber, LayerNumber};
 use crate::compliance::SurfaceResponse;
-use crate::kernel::{Components, LayerChanges, ResponseChange, coefficients_by, symbols_by};
+use crate::kernel::{
+    Components, LayerChanges, ResponseChange, coefficients_by, line_coefficients_by, symbols_by,
+};
 use crate::model::{Body, HalfSpace};
 use crate::plan::{Coupling, Plan};
 
@@ -21,6 +23,13 @@ pub(super) fn change_of_response(plan: &Plan, number: BodyNumber, cells: [usize;
     };
     let changes: [&[LayerChanges]; 2] = if number.of_upper { [&[], &changes] } else { [&changes, &[]] };
     let spacing = plan.grid.spacing();
+    if plan.case.is_line() {
+        let ([width, _], [strips, _]) = (plan.grid.size(), cells);
+        let datum = plan.datum.unwrap_or(width);
+        return SurfaceResponse::FreeSpace(line_coefficients_by(
+            bodies, changes, strips, spacing[0], datum, wanted,
+        ));
+    }
     if plan.case.periodic.is_both() {
         SurfaceResponse::Periodic(symbols_by(bodies, changes, plan.case.cells, spacing, wanted))
     } else {
@@ -57,7 +66,7 @@ mod tests {
     use ndarray::Array2;
 
     use super::*;
-    use crate::kernel::{InfluenceCoefficients, influence_coefficients};
+    use crate::kernel::{InfluenceCoefficients, influence_coefficients, line_coefficients};
     use crate::model::{Base, Coating, ContactPair, ElasticMaterial, Interface};
     use crate::random::Random;
 
@@ -97,6 +106,53 @@ mod tests {
 
     fn arrays(c: &InfluenceCoefficients) -> [&Array2<f64>; 6] {
         [&c.zz, &c.xx, &c.yy, &c.xy, &c.zx, &c.zy].map(|array| array.as_ref().unwrap())
+    }
+
+    /// Those of line contacts, relative to a datum in a layer or in the substrate, of stacks and of half-spaces, as above.
+    #[test]
+    fn coefficients_of_lines_change_as_their_differences_say() {
+        let mut random = Random::seeded(18);
+        for datum in [0.2, 40.0] {
+            let mut layer =
+                || [random.log_uniform(0.1, 10.0), random.between(0.1, 0.45), random.log_uniform(0.3, 3.0)];
+            let [[e1, n1, h1], [e2, n2, h2], [e3, n3, h3], [e4, n4, h4]] =
+                [layer(), layer(), layer(), layer()];
+            let numbers = [e1, n1, h1, e2, n2, h2, h3, h4, e3, n3, e4, n4];
+            let half_spaces = |numbers: &[f64; 12]| {
+                let of = |at: usize| ElasticMaterial::new(numbers[at], numbers[at + 1]).unwrap();
+                let [lower, upper] = [8, 10].map(|at| Body::Elastic(HalfSpace::homogeneous(of(at))));
+                ContactPair::new(upper, lower).unwrap()
+            };
+            for (made, first) in [(&pair as &dyn Fn(&[f64; 12]) -> ContactPair, 0), (&half_spaces, 8)] {
+                let at = |index: usize, factor: f64| {
+                    let mut moved = numbers;
+                    moved[index] *= 1.0 + factor;
+                    line_coefficients(&made(&moved), 12, 0.5, datum, Components::ALL)
+                };
+                let here = made(&numbers);
+                for index in first..numbers.len() {
+                    let number = number(index);
+                    let body = if number.of_upper { here.upper() } else { here.lower() };
+                    let Body::Elastic(body) = body else { unreachable!() };
+                    let changes = changes_of(body, number);
+                    let changes: [&[LayerChanges]; 2] =
+                        if number.of_upper { [&[], &changes] } else { [&changes, &[]] };
+                    let found = line_coefficients_by(&here, changes, 12, 0.5, datum, Components::ALL);
+                    let [a, b, c, d] = [1e-3, -1e-3, 2e-3, -2e-3].map(|step| at(index, step));
+                    for component in 0..6 {
+                        let of = |c: &InfluenceCoefficients| arrays(c)[component].clone();
+                        let expected = ((of(&a) - of(&b)) * 8.0 - (of(&c) - of(&d))) / 12e-3;
+                        // A shallow datum leaves little of the coefficients, not of their derivatives.
+                        let own = arrays(&at(index, 0.0))[0][[0, 0]].abs();
+                        let size = expected.iter().fold(own, |most, by| most.max(by.abs()));
+                        for (found, expected) in of(&found).iter().zip(&expected) {
+                            let off = (found * numbers[index] - expected).abs() / size;
+                            assert!(off < 1e-9, "{index}, {component}: {found} {expected} {off:.1e}");
+                        }
+                    }
+                }
+            }
+        }
     }
 
     /// Influence coefficients of random stacks by all their constants, against differences of fourth order. 1e-9 of the largest coefficient: what

@@ -12,13 +12,25 @@ pub(super) type Reached = [[f64; 3]; 6];
 /// A tangential field.
 pub(super) type Tangential = [Vec<f64>; 2];
 
+/// Energies of the whole contact, by their places: those of the record, and what has been dissipated, left unresolved and done by the bulk
+/// stresses since the cycle began.
+pub(super) const DISSIPATED: usize = 0;
+pub(super) const STORED: usize = 1;
+pub(super) const EXTERNAL: usize = 2;
+pub(super) const UNRESOLVED: usize = 3;
+pub(super) const OF_WEAR: usize = 4;
+pub(super) const OF_BULK: usize = 5;
+pub(super) const OF_CYCLE: [usize; 3] = [6, 7, 8];
+pub(super) const ENERGIES: usize = 9;
+
 /// One number for each of the quantities that go from increment to increment, in the region.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Change {
     pub pressure: Vec<f64>,
     pub shear: Tangential,
+    /// Gap at the end of the increment, after what wears off then.
     pub gap: Vec<f64>,
-    /// Tangential displacement of the upper surface over the lower, motions included.
+    /// Tangential displacement of the upper surface over the lower, motions and bulk strains included.
     pub slid: Tangential,
     /// What the rule of slip takes for the drift of the increment.
     pub drift: Tangential,
@@ -29,8 +41,9 @@ pub(super) struct Change {
     pub slip: Tangential,
     /// Rotations times the length.
     pub motions: [f64; MOTIONS],
-    /// Dissipated, stored, external and unresolved energy of the whole contact, and what has been dissipated since the cycle began.
-    pub energies: [f64; 5],
+    /// Strain of the lower surface less that of the upper one by bulk stresses, times the length.
+    pub strain: [f64; 2],
+    pub energies: [f64; ENERGIES],
     pub reached: Reached,
     /// Load at the start of the stage and at the end of the increment, of the whole contact.
     pub start: [f64; FREEDOMS],
@@ -56,7 +69,8 @@ impl Change {
             collected: Vec::new(),
             slip: [Vec::new(), Vec::new()],
             motions: [0.0; MOTIONS],
-            energies: [0.0; 5],
+            strain: [0.0; 2],
+            energies: [0.0; ENERGIES],
             reached: Reached::default(),
             start: [0.0; FREEDOMS],
             held: [0.0; FREEDOMS],
@@ -78,8 +92,8 @@ impl Change {
             .chain(worn)
             .chain(slip);
         let loads = [&self.start, &self.held, &self.from, &self.load].into_iter().map(|load| &load[..]);
-        let small =
-            [&self.motions[..], &self.energies, reached.as_flattened(), std::slice::from_ref(&self.ratio)];
+        let (motions, ratio) = ([&self.motions[..], &self.strain], std::slice::from_ref(&self.ratio));
+        let small = motions.into_iter().chain([&self.energies[..], reached.as_flattened(), ratio]);
         fields.map(Vec::as_slice).chain(loads).chain(small)
     }
 
@@ -97,20 +111,36 @@ impl Change {
         Self { slip: [vec![0.0; cells], vec![0.0; cells]], ..self }
     }
 
-    /// Ends a block of cycles, of which the one that was computed stands for all: each takes off what that has collected, and dissipates its energy.
+    /// Ends a block of cycles, of which the one that was computed stands for all: each takes off what that has collected, dissipates its energy,
+    /// leaves as much unresolved, and stores nothing.
     pub fn end_block(&mut self, cycles: usize) {
-        let cycles = cycles as f64;
-        self.worn.iter_mut().zip(&self.collected).for_each(|(worn, more)| *worn += cycles * more);
+        let (cycles, others) = (cycles as f64, cycles as f64 - 1.0);
+        for ((worn, gap), more) in self.worn.iter_mut().zip(&mut self.gap).zip(&self.collected) {
+            *worn += cycles * more;
+            *gap += cycles * more;
+        }
         self.collected.fill(0.0);
-        self.energies[0] += (cycles - 1.0) * self.energies[4];
-        self.energies[4] = 0.0;
+        let [dissipated, unresolved, by_bulk] = OF_CYCLE.map(|place| others * self.energies[place]);
+        self.energies[DISSIPATED] += dissipated;
+        self.energies[UNRESOLVED] += unresolved;
+        self.energies[EXTERNAL] += dissipated + unresolved;
+        self.energies[OF_BULK] += by_bulk;
+        for place in OF_CYCLE {
+            self.energies[place] = 0.0;
+        }
     }
 
     /// Backwards.
     pub fn end_block_transposed(&mut self, cycles: usize) {
-        let cycles = cycles as f64;
-        self.collected.iter_mut().zip(&self.worn).for_each(|(more, worn)| *more = cycles * worn);
-        self.energies[4] = (cycles - 1.0) * self.energies[0];
+        let (cycles, others) = (cycles as f64, cycles as f64 - 1.0);
+        for ((more, worn), gap) in self.collected.iter_mut().zip(&self.worn).zip(&self.gap) {
+            *more = cycles * (worn + gap);
+        }
+        let of = |energy: usize| self.energies[energy];
+        let of_cycle = [of(DISSIPATED) + of(EXTERNAL), of(UNRESOLVED) + of(EXTERNAL), of(OF_BULK)];
+        for (place, of) in OF_CYCLE.into_iter().zip(of_cycle) {
+            self.energies[place] = others * of;
+        }
     }
 
     /// Whether all are zero.

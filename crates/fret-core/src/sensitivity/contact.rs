@@ -45,6 +45,8 @@ pub(super) struct Drive {
     pub rig: [f64; 3],
     /// Wear coefficient [1/pressure].
     pub wear: f64,
+    /// Strain by the bulk stresses of the increment, times the length.
+    pub strain: [f64; 2],
     /// Displacements of the tractions by the change of the response [length].
     pub response: Fields,
 }
@@ -52,7 +54,14 @@ pub(super) struct Drive {
 impl Drive {
     /// Nothing, in a region of so many cells.
     pub fn none(cells: usize) -> Self {
-        Self { gap: vec![0.0; cells], friction: [0.0; 2], rig: [0.0; 3], wear: 0.0, response: zeros(cells) }
+        Self {
+            gap: vec![0.0; cells],
+            friction: [0.0; 2],
+            rig: [0.0; 3],
+            wear: 0.0,
+            strain: [0.0; 2],
+            response: zeros(cells),
+        }
     }
 }
 
@@ -114,7 +123,8 @@ impl<'a> Contact<'a> {
         for ((place, cell), does) in self.set.cells().enumerate().zip(&self.cells) {
             asked[0][place] = -drive.gap[cell] - before.worn.get(cell).copied().unwrap_or(0.0);
             let (slid, ahead) = (at(&before.slid, cell), at(&paths.ahead, place));
-            let [x, y] = [0, 1].map(|axis| -slid[axis] - ahead[axis]);
+            let strained = |axis: usize| next.strain[axis] * does.place[axis];
+            let [x, y] = [0, 1].map(|axis| -slid[axis] - ahead[axis] - strained(axis));
             if let Some(row) = does.row() {
                 let (by, turn) = (self.by_turn[place], at(&paths.turn, place));
                 asked[1][place] = row[0] * x + row[1] * y + by[0] * turn[0] + by[1] * turn[1];
@@ -132,7 +142,7 @@ impl<'a> Contact<'a> {
         Asked { displacements: asked, amounts }
     }
 
-    /// Backwards: adds to `before` and the loads of `next`, to the paths and to the number.
+    /// Backwards: adds to `before`, the loads and the strain of `next`, to the paths and to the number.
     pub fn asked_transposed(
         &self,
         of: &Asked,
@@ -147,6 +157,7 @@ impl<'a> Contact<'a> {
             }
             for (axis, along) in [&x, &y].into_iter().enumerate() {
                 before.slid[axis][cell] -= along[place];
+                next.strain[axis] -= along[place] * self.cells[place].place[axis];
                 paths.ahead[axis][place] -= along[place];
                 paths.turn[axis][place] += self.by_turn[place][axis] * of.displacements[1][place];
             }

@@ -1,8 +1,10 @@
-//! The energies of an increment, linearised: what friction dissipates, what is stored, the work put in, and what remains. The formulas are those of
-//! the solver (`solver/state_after.rs`, `solver/energy.rs`).
+//! The energies of an increment, linearised: what friction dissipates, what is stored, the work put in, what went with worn surfaces, and what
+//! remains. The formulas are those of the solver (`solver/state_after.rs`, `solver/energy.rs`).
 
 use super::cell::MOTIONS;
-use super::change::{Change, Solution};
+use super::change::{
+    Change, DISSIPATED, ENERGIES, EXTERNAL, OF_BULK, OF_CYCLE, OF_WEAR, STORED, Solution, UNRESOLVED,
+};
 use super::contact::bound_by_friction;
 use super::rule::{PathChange, Rule, combination, product};
 use super::scene::Scene;
@@ -123,22 +125,28 @@ impl<'a> Energies<'a> {
         (0..self.scene.region.len()).filter(|&cell| before[cell] != 0.0 || now[cell] != 0.0)
     }
 
-    /// The motions of the increment, mean tractions, drift and growth of the gap of a cell.
-    fn means(&self, cell: usize) -> ([f64; 3], [f64; 2], f64) {
+    /// Mean tractions and drift of a cell, its gap before, under the surfaces of now, and by how much that closes.
+    fn means(&self, cell: usize) -> ([f64; 3], [f64; 2], [f64; 2]) {
         let Self { now, before, .. } = self;
         let tractions =
             [0, 1, 2].map(|part| 0.5 * (before.tractions[part][cell] + now.tractions[part][cell]));
         let [_, columns] = now.shape();
         let place = [cell / columns, cell % columns];
-        (tractions, now.drift_since(before, cell), before.gap[place] - now.gap[place])
+        let gap = before.gap[place] + (now.undeformed[place] - before.undeformed[place]);
+        (tractions, now.drift_since(before, cell), [gap, gap - now.gap[place]])
     }
 
     fn motions(&self) -> [f64; MOTIONS] {
         std::array::from_fn(|motion| self.now.motions[motion] - self.before.motions[motion])
     }
 
-    /// Changes of dissipated, stored, external and unresolved energy, and of what has been dissipated since the cycle began.
-    pub fn forward(&self, of: &Inputs<'_>) -> [f64; 5] {
+    /// By how much more the lower surface is strained in the increment, times the length.
+    fn strain(&self) -> [f64; 2] {
+        std::array::from_fn(|axis| self.now.strain[axis] - self.before.strain[axis])
+    }
+
+    /// Changes of the energies, by their places.
+    pub fn forward(&self, of: &Inputs<'_>) -> [f64; ENERGIES] {
         let Inputs { before, next, solution, paths, friction } = of;
         let bound = |bound: &Bound, pressure: f64| {
             bound.by[0] * pressure + bound.by[1] * friction[0] + bound.by[2] * friction[1]
@@ -170,11 +178,15 @@ impl<'a> Energies<'a> {
         let motions = self.motions();
         let change: [f64; MOTIONS] =
             std::array::from_fn(|motion| next.motions[motion] - before.motions[motion]);
-        let (mut work, mut slipped) = (0.0, 0.0);
+        let (strain, by_strain) = (self.strain(), [0, 1].map(|axis| next.strain[axis] - before.strain[axis]));
+        let [mut work, mut slipped, mut worn, mut by_bulk] = [0.0; 4];
         for cell in self.pressed() {
-            let (tractions, slip, opened) = self.means(cell);
+            let (tractions, slip, [gap, opened]) = self.means(cell);
             let place = self.scene.place(cell);
             let pressure = 0.5 * (before.pressure[cell] + next.pressure[cell]);
+            if self.before.opens {
+                worn += before.pressure[cell] * gap + self.before.tractions[0][cell] * before.gap[cell];
+            }
             let shear = [0, 1].map(|axis| 0.5 * (before.shear[axis][cell] + next.shear[axis][cell]));
             let (moved, by_change) = (moved_by(&motions, place), moved_by(&change, place));
             let drift = drift(cell);
@@ -183,28 +195,39 @@ impl<'a> Energies<'a> {
             for axis in 0..2 {
                 work += shear[axis] * moved[axis] + tractions[1 + axis] * by_change[axis];
                 slipped += shear[axis] * slip[axis] + tractions[1 + axis] * drift[axis];
+                by_bulk -= place[axis] * (shear[axis] * strain[axis] + tractions[1 + axis] * by_strain[axis]);
             }
         }
+        let mut changes = [0.0; ENERGIES];
+        let unresolved = slipped - dissipated - worn;
+        changes[DISSIPATED] = dissipated;
+        changes[EXTERNAL] = work + by_bulk;
+        changes[UNRESOLVED] = unresolved;
+        changes[OF_WEAR] = worn;
+        changes[OF_BULK] = by_bulk;
+        for (place, change) in OF_CYCLE.into_iter().zip([dissipated, unresolved, by_bulk]) {
+            changes[place] = change;
+        }
         let area = self.scene.area();
-        [
-            before.energies[0] + dissipated * area,
-            stored * 0.5 * area,
-            before.energies[2] + work * area,
-            before.energies[3] + (slipped - dissipated) * area,
-            before.energies[4] + dissipated * area,
-        ]
+        let mut energies = std::array::from_fn(|energy| before.energies[energy] + changes[energy] * area);
+        energies[STORED] = stored * 0.5 * area;
+        energies
     }
 
     /// Backwards, from those of the energies.
-    pub fn transposed(&self, of: [f64; 5], to: &mut Outputs<'_>) {
+    pub fn transposed(&self, of: [f64; ENERGIES], to: &mut Outputs<'_>) {
         let Outputs { before, next, solution, paths, friction } = to;
         let area = self.scene.area();
-        for energy in [0, 2, 3, 4] {
+        for energy in (0..ENERGIES).filter(|energy| *energy != STORED) {
             before.energies[energy] += of[energy];
         }
-        let [dissipated, stored, work, unresolved, of_cycle] = of.map(|energy| energy * area);
-        let dissipated = dissipated + of_cycle - unresolved;
-        let stored = 0.5 * stored;
+        let of = of.map(|energy| energy * area);
+        let [dissipated, unresolved, by_bulk] = OF_CYCLE.map(|place| of[place]);
+        let (work, unresolved) = (of[EXTERNAL], of[UNRESOLVED] + unresolved);
+        let dissipated = of[DISSIPATED] + dissipated - unresolved;
+        let by_bulk = of[OF_BULK] + by_bulk + work;
+        let worn = if self.before.opens { of[OF_WEAR] - unresolved } else { 0.0 };
+        let stored = 0.5 * of[STORED];
         let mut by_bound = |bound: &Bound, amount: f64, pressure: &mut f64| {
             *pressure += bound.by[0] * amount;
             friction[0] += bound.by[1] * amount;
@@ -243,27 +266,30 @@ impl<'a> Energies<'a> {
                 }
             }
         }
-        if work == 0.0 && unresolved == 0.0 {
+        if [work, unresolved, worn, by_bulk] == [0.0; 4] {
             return;
         }
-        let motions = self.motions();
+        let (motions, strain) = (self.motions(), self.strain());
         let mut change = [0.0; MOTIONS];
         for cell in self.pressed() {
-            let (tractions, slip, opened) = self.means(cell);
+            let (tractions, slip, [gap, opened]) = self.means(cell);
             let place = self.scene.place(cell);
             let moved = moved_by(&motions, place);
             let pressure = 0.5 * (work * deep_by(&motions, place) + unresolved * opened);
-            before.pressure[cell] += pressure;
+            before.pressure[cell] += pressure + worn * gap;
             next.pressure[cell] += pressure;
-            before.gap[cell] += unresolved * tractions[0];
+            before.gap[cell] += unresolved * tractions[0] + worn * self.before.tractions[0][cell];
             next.gap[cell] -= unresolved * tractions[0];
             for axis in 0..2 {
-                let shear = 0.5 * (work * moved[axis] + unresolved * slip[axis]);
+                let stretched = by_bulk * place[axis];
+                let shear = 0.5 * (work * moved[axis] + unresolved * slip[axis] - stretched * strain[axis]);
                 before.shear[axis][cell] += shear;
                 next.shear[axis][cell] += shear;
                 let drift = unresolved * tractions[1 + axis];
                 next.slid[axis][cell] += drift;
                 before.slid[axis][cell] -= drift;
+                next.strain[axis] -= stretched * tractions[1 + axis];
+                before.strain[axis] += stretched * tractions[1 + axis];
             }
             let [x, y] = place;
             let [normal, along_x, along_y] = tractions.map(|part| work * part);

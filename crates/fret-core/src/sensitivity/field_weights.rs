@@ -1,4 +1,6 @@
-//! Fields of tractions as results: the sum over the cells of the grid of a field, each times its weight.
+//! Fields as results: the sum over the cells of the grid of a field, tractions, slip or wear depth, each times its weight.
+
+use std::ops::RangeInclusive;
 
 use ndarray::Array2;
 
@@ -9,17 +11,19 @@ use crate::model::Symmetry;
 use crate::plan::Plan;
 
 /// Fields whose sums have derivatives.
-pub const FIELDS: [&str; 3] = ["pressure", "shear_x", "shear_y"];
+pub const FIELDS: [&str; 6] = ["pressure", "shear_x", "shear_y", "slip_x", "slip_y", "worn_depth"];
 
-/// The place of slip along x, beside which that along y stands.
-pub(super) const SLIP: usize = FIELDS.len();
+/// The place of slip along x, beside which that along y stands: here accumulated, in a column of an increment its own.
+pub(super) const SLIP: usize = 3;
+/// The place of the wear depth of both bodies together.
+pub(super) const WORN: usize = 5;
 
 /// A field of an increment, and the weight of each cell.
 #[derive(Debug, Clone)]
 pub(super) struct FieldWeights {
     /// `None`: the last one.
     increment: Option<usize>,
-    /// Its place in [`FIELDS`]; beyond them slip along x and y.
+    /// Its place in [`FIELDS`].
     field: usize,
     /// Over the cells in front of the mirrors, each with what lies behind them.
     weights: Array2<f64>,
@@ -47,6 +51,9 @@ impl FieldWeights {
         let field = FIELDS.iter().position(|known| *known == field).ok_or_else(|| {
             refused(format!("no field whose sum has derivatives; of these each has: {}", FIELDS.join(", ")))
         })?;
+        if field == WORN && plan.case.wear.is_none() {
+            return Err(refused("nothing wears in this case".to_owned()));
+        }
         let [rows, columns] = plan.grid.cells();
         if weights.dim() != (rows, columns) {
             let (found_rows, found_columns) = weights.dim();
@@ -60,10 +67,12 @@ impl FieldWeights {
         Ok(Self { increment, ..Self::of(field, weights, plan) })
     }
 
-    /// Those of a field by its place in [`FIELDS`], or beyond them of slip along x and y, of all cells of the grid of a plan, in the last increment.
+    /// Those of a field by its place in [`FIELDS`], of all cells of the grid of a plan, in the last increment.
     pub fn of(field: usize, weights: &Array2<f64>, plan: &Plan) -> Self {
-        let odd =
-            field.checked_sub(1).map_or([false; 2], |component| plan.symmetry.shear_is_odd(component % 2));
+        let odd = match field {
+            0 | WORN => [false; 2],
+            component => plan.symmetry.shear_is_odd((component - 1) % 2),
+        };
         Self { increment: None, field, weights: folded(weights, plan.symmetry, odd) }
     }
 
@@ -80,8 +89,20 @@ impl FieldWeights {
     /// The sum in an increment.
     pub fn value(&self, step: &Snapshot) -> f64 {
         let state = step.state();
-        let field = [&state.pressure, &state.shear[0], &state.shear[1]][self.field];
+        let ([x, y], [slip_x, slip_y]) = (&state.shear, &state.slip);
+        let worn = step.worn.as_deref().unwrap_or(&state.pressure);
+        let field = [&state.pressure, x, y, slip_x, slip_y, worn][self.field];
         self.weights.iter().zip(field).map(|(weight, value)| weight * value).sum()
+    }
+
+    /// Increments whose columns make the sum in one: of slip, which is accumulated, all up to it.
+    pub fn increments(&self, increment: usize) -> RangeInclusive<usize> {
+        if self.is_slip() { 0..=increment } else { increment..=increment }
+    }
+
+    /// Whether it is slip.
+    pub fn is_slip(&self) -> bool {
+        (SLIP..WORN).contains(&self.field)
     }
 
     /// The weights in the region of a history: tractions are none beyond it.

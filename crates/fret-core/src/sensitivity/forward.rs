@@ -11,12 +11,14 @@ use super::contact::Drive;
 use super::error::SensitivityError;
 use super::events::{NearEvents, SideOfEvents, cells_near_events, with_cells};
 use super::increment::{ENOUGH, Increment};
+use super::loads::Load;
 use super::operators::displacements;
 use super::parameter::Parameter;
 use super::replay::Replay;
 use super::scene::{Scene, field};
 use super::snapshot::Snapshot;
 use super::solved::Solved;
+use super::strain::Strain;
 use super::work::Work;
 use crate::compliance::SpectralCompliance;
 use crate::model::controls::FREEDOMS;
@@ -27,9 +29,10 @@ struct Course<'a> {
     parameter: &'a Parameter,
     before: Change,
     former: Change,
-    /// Derivatives of the gap before deformation, and of the response.
+    /// Derivatives of the gap before deformation, of the response, and of the strain by bulk stresses.
     gap: Vec<f64>,
     response: Option<SpectralCompliance>,
+    strain: Option<Strain>,
 }
 
 /// Derivative of the response by a number, where it is one of a body.
@@ -86,7 +89,15 @@ pub(super) fn forward(
         let gap = change_of_gap(parameter, scene);
         let untouched = Change { gap: gap.clone(), ..scene.no_change() };
         let response = response_by(scene, parameter)?;
-        courses.push(Course { parameter, before: untouched.clone(), former: untouched, gap, response });
+        let strain = parameter.of_body().and_then(|number| Strain::by(scene.plan, number, scene.length));
+        courses.push(Course {
+            parameter,
+            before: untouched.clone(),
+            former: untouched,
+            gap,
+            response,
+            strain,
+        });
     }
     let mut replay = Replay::new(scene);
     let mut past = [replay.start.clone(), replay.start.clone()];
@@ -124,7 +135,7 @@ pub(super) fn forward(
             };
             let mut equations = increment.equations(&mut operators)?;
             for (course, numbers) in courses.iter_mut().zip(&numbers) {
-                let drive = course.drive(scene, &solved, stage);
+                let drive = course.drive(scene, (&solved, &next.load), stage);
                 let changes = [&course.before, &course.former];
                 let after = increment.forward(&mut equations, changes, (&drive, numbers));
                 let after = after.map_err(|reached| SensitivityError::NotSolved {
@@ -174,13 +185,16 @@ pub(super) fn forward(
 
 impl Course<'_> {
     /// What an increment depends on by the number.
-    fn drive(&mut self, scene: &Scene<'_>, solved: &Solved, stage: usize) -> Drive {
+    fn drive(&mut self, scene: &Scene<'_>, (solved, load): (&Solved, &Load), stage: usize) -> Drive {
         let case = &scene.plan.case;
         let mut drive = Drive::none(scene.region.len());
         drive.gap.clone_from(&self.gap);
         drive.friction = self.parameter.change_of_friction(case, stage);
         drive.rig = self.parameter.change_of_rig(case);
         drive.wear = self.parameter.change_of_wear();
+        if let Some(strain) = &self.strain {
+            drive.strain = strain.under(load.step.bulk_stress);
+        }
         if let Some(change) = &mut self.response
             && solved.contact.len() > 0
         {

@@ -8,19 +8,19 @@ use ndarray::Array2;
 
 use super::backward::{Found, Target, backward};
 use super::below::below;
+use super::cycle_loop::of_loop;
 use super::error::SensitivityError;
 use super::events::{NearEvents, SideOfEvents};
 use super::field_weights::FieldWeights;
 use super::forward::forward;
-use super::largest::Below;
-use super::objective::{Column, Objective, Row, value_of};
+use super::objective::Objective;
 use super::parameter::Parameter;
 use super::past::{Past, bytes_per_cell, length_of_segments};
-use super::refusals::{check, check_history, check_jumps, check_request};
+use super::refusals::{check, check_history, check_request};
+use super::row::{Column, Composed, Row, value_of};
 use super::scene::Scene;
 use super::snapshot::Snapshot;
 use super::work::Work;
-use crate::fields::add_scaled;
 use crate::history::{CycleRecord, KeptFields, StepRecord};
 use crate::machine::memory;
 use crate::model::MirroredState;
@@ -168,13 +168,14 @@ fn derivatives(
     let parameters = asked(plan, (names, sums.iter().any(|sum| !sum.fields.is_empty())), by)?;
     let objectives = sums.iter().flat_map(|sum| &sum.parts).map(|(name, _)| Objective::new(name));
     let objectives = objectives.collect::<Result<Vec<_>, _>>()?;
-    let with_slip = objectives.iter().any(|objective| matches!(objective, Objective::Ruiz { .. }));
+    let mut fields = sums.iter().flat_map(|sum| &sum.fields);
+    let with_slip =
+        objectives.iter().any(Objective::needs_slip) || fields.any(|(_, weights)| weights.is_slip());
     let mut run = Snapshots { steps: Vec::new(), cycles: Vec::new(), with_slip, observer };
     let pair = Arc::new(PairCompliance::of(plan));
     Simulation::new(plan).with_compliance(Some(Arc::clone(&pair))).run(&mut run)?;
     let Snapshots { mut steps, cycles, observer, .. } = run;
     end_blocks(&mut steps, &cycles);
-    check_jumps(&cycles, &objectives)?;
     if let Some(step) = steps.iter().find(|step| step.record.parts > 1) {
         return Err(SensitivityError::Parts { increment: step.record.increment, parts: step.record.parts });
     }
@@ -189,7 +190,7 @@ fn derivatives(
     let mut below = below(&scene, &steps, &numbers, &parameters)?.into_iter();
     let targets = sums
         .iter()
-        .map(|sum| sum.target((&scene, parameters.len()), (&steps, &cycles), &mut below))
+        .map(|sum| sum.target((&scene, &parameters), (&steps, &cycles), &mut below))
         .collect::<Result<Vec<_>, _>>()?;
     let tolerance = plan.case.tolerance;
     let mut tell = |step: &Snapshot| {
@@ -269,25 +270,30 @@ impl Sum<'_> {
     /// Its value, and the columns of increments that it is made of. `below`: the numbers of the stress among its parts, in their order.
     fn target(
         &self,
-        (scene, parameters): (&Scene<'_>, usize),
+        (scene, parameters): (&Scene<'_>, &[Parameter]),
         (steps, cycles): (&[Snapshot], &[CycleRecord]),
-        below: &mut impl Iterator<Item = Below>,
+        below: &mut impl Iterator<Item = Composed>,
     ) -> Result<Target, SensitivityError> {
-        let (of, aside) = (self.of.clone(), vec![0.0; parameters]);
+        let (of, aside) = (self.of.clone(), vec![0.0; parameters.len()]);
         let mut found = Target { of, value: 0.0, columns: Vec::new(), aside };
         for (name, weight) in &self.parts {
             let objective = Objective::new(name)?;
             if objective.is_below()
                 && let Some(below) = below.next()
             {
-                found.value += weight * below.value;
-                found
-                    .columns
-                    .extend(below.columns.into_iter().map(|(of, column, by)| (of, column, weight * by)));
-                add_scaled(&mut found.aside, *weight, &below.by);
+                found.add(*weight, below);
                 continue;
             }
-            let column = objective.column();
+            if let Some((cycle, column)) = objective.of_loop(name, cycles)? {
+                let none = || SensitivityError::Objective {
+                    name: (*name).clone(),
+                    reason: "this cycle has none: nothing in it moves, or no machine gives".to_owned(),
+                };
+                let number = of_loop(scene, (steps, cycle), column, parameters).ok_or_else(none)?;
+                found.add(*weight, number);
+                continue;
+            }
+            let column = objective.column_of_increments();
             for (increment, sign) in objective.needs(name, (steps.len(), cycles))? {
                 let Some(increment) = increment else { continue };
                 found.value += sign * weight * value_of(&steps[increment].record, column);
@@ -297,7 +303,8 @@ impl Sum<'_> {
         for (name, weights) in &self.fields {
             let increment = weights.increment(name, steps.len())?;
             found.value += weights.value(&steps[increment]);
-            found.columns.push((increment, Column::Field(weights.in_region(scene)), 1.0));
+            let column = Column::Field(weights.in_region(scene));
+            found.columns.extend(weights.increments(increment).map(|at| (at, column.clone(), 1.0)));
         }
         Ok(found)
     }

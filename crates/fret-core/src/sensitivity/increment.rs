@@ -81,6 +81,8 @@ impl<'a> Increment<'a> {
     ) -> Result<Change, f64> {
         let mut next = self.scene.no_change();
         self.load.forward(before, numbers, &mut next);
+        let [x, y] = self.scene.strain.forward(&next.load);
+        next.strain = [x + drive.strain[0], y + drive.strain[1]];
         let paths = self.rule.forward([before, former, &next]);
         let asked = self.contact.asked(before, &next, (&paths, drive));
         let solution = if self.contact.cells.is_empty() {
@@ -108,6 +110,8 @@ impl<'a> Increment<'a> {
         let asked = self.solve_transposed(equations, &solution, drive, largest)?;
         self.contact.asked_transposed(&asked, [before, &mut next], (&mut paths, drive));
         self.rule.transposed(paths, [before, former, &mut next]);
+        self.scene.strain.transposed(next.strain, &mut next.load);
+        drive.strain.iter_mut().zip(next.strain).for_each(|(drive, of)| *drive += of);
         self.load.transposed(&next, before, numbers);
         Ok(())
     }

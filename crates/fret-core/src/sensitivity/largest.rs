@@ -7,21 +7,16 @@ use super::beneath::{Beneath, Found, Number, failed};
 use super::bodies::changes_of;
 use super::error::SensitivityError;
 use super::field_weights::FieldWeights;
-use super::objective::Column;
 use super::parameter::{BodyNumber, Parameter, ResidualNumber};
+use super::row::{Column, Composed};
 use super::scene::Scene;
-use crate::case::Side;
+use crate::case::{Side, Stage};
+use crate::fields::dot;
+use crate::model::controls::{BULK_STRESS, UPPER_BULK_STRESS};
+use crate::model::{bulk_stress_in_layer, slopes_of_bulk_stress_in_layer};
 use crate::subsurface::rim::{RimSlopes, of_rim};
 use crate::subsurface::severity::{constants_of, material_of};
 use crate::subsurface::{DepthOperator, StressField, StressTensor, Tractions, change_of_stress, deeper};
-
-/// The largest value of a number, how it changes with the tractions, and how, beside these, with each of the parameters.
-#[derive(Debug, Clone)]
-pub(super) struct Below {
-    pub value: f64,
-    pub columns: Vec<(usize, Column, f64)>,
-    pub by: Vec<f64>,
-}
 
 /// The largest value of a number, with the stresses that make it.
 pub(super) struct Largest<'a> {
@@ -119,13 +114,16 @@ impl<'a> Largest<'a> {
         mut self,
         scene: &Scene<'_>,
         parameters: &[Parameter],
-    ) -> Result<Below, SensitivityError> {
+    ) -> Result<Composed, SensitivityError> {
         let mut columns = Vec::new();
         for (place, surface) in self.surfaces.clone().into_iter().enumerate() {
             let increment = self.beneath.surfaces[surface].increment;
             for (field, weights) in self.by_tractions(place, surface).iter().enumerate() {
                 let weights = FieldWeights::of(field, weights, scene.plan).in_region(scene);
                 columns.push((increment, Column::Field(weights), 1.0));
+            }
+            if scene.plan.case.stages.iter().any(Stage::stretches) {
+                columns.push((increment, Column::Bulk(self.first_stress(), self.by_bulk(place)), 1.0));
             }
         }
         let of_upper = self.beneath.side == Side::Upper;
@@ -134,7 +132,7 @@ impl<'a> Largest<'a> {
             (_, Some(number)) if number.of_upper == of_upper => Ok(self.by_residual(number)),
             _ => Ok(0.0),
         });
-        Ok(Below { value: self.found.value, columns, by: by.collect::<Result<_, _>>()? })
+        Ok(Composed { value: self.found.value, columns, by: by.collect::<Result<_, _>>()? })
     }
 
     /// Derivatives by pressure and shear on all cells in one of the increments.
@@ -157,16 +155,36 @@ impl<'a> Largest<'a> {
         sums
     }
 
+    /// The degree of freedom of the bulk stress of the body along x.
+    fn first_stress(&self) -> usize {
+        if self.beneath.side == Side::Upper { UPPER_BULK_STRESS } else { BULK_STRESS }
+    }
+
+    /// Derivatives by the bulk stress of the body along x and y in one of the increments, beside what it does to the tractions.
+    fn by_bulk(&self, place: usize) -> [f64; 2] {
+        let Self { beneath, found, .. } = self;
+        let (grid, _) = beneath.grid();
+        [[1.0, 0.0], [0.0, 1.0]].map(|unit| {
+            let stress = bulk_stress_in_layer(beneath.half_space, found.point.layer, unit, grid.dimension());
+            self.by_even_stress(place, stress)
+        })
+    }
+
+    /// What a stress along x and y in all cells alike changes of the number, in one of the increments.
+    fn by_even_stress(&self, place: usize, [xx, yy]: [f64; 2]) -> f64 {
+        let even = StressTensor([xx, yy, 0.0, 0.0, 0.0, 0.0]);
+        self.cells.iter().map(|(_, by)| by[place].times(&even)).sum()
+    }
+
     /// The derivative by a residual stress, which moves no surface.
     fn by_residual(&self, number: ResidualNumber) -> f64 {
-        let Self { beneath, found, cells, surfaces, .. } = self;
+        let Self { beneath, found, surfaces, .. } = self;
         let residual = &beneath.surfaces[surfaces[0]].even.residual;
         if residual.named(beneath.half_space, found.point.layer) != Some(number.named) {
             return 0.0;
         }
-        let [xx, yy] = number.along.map(|acts| f64::from(u8::from(acts)));
-        let even = StressTensor([xx, yy, 0.0, 0.0, 0.0, 0.0]);
-        cells.iter().flat_map(|(_, by)| by).map(|by| by.times(&even)).sum()
+        let along = number.along.map(|acts| f64::from(u8::from(acts)));
+        (0..surfaces.len()).map(|place| self.by_even_stress(place, along)).sum()
     }
 
     /// The derivative by a constant of the body while the tractions stay.
@@ -186,6 +204,13 @@ impl<'a> Largest<'a> {
         let [xx, yy] = residual.slope(half_space, point.layer, point.depth).map(|slope| slope * in_layer);
         let even = StressTensor([xx, yy, 0.0, 0.0, 0.0, 0.0]);
         let scene = beneath.grid();
+        let base = changes[coatings];
+        let inputs = [base.young, base.poisson, of_layer.young, of_layer.poisson];
+        for (place, &surface) in surfaces.iter().enumerate() {
+            let bulk = beneath.surfaces[surface].even.bulk;
+            let slopes = slopes_of_bulk_stress_in_layer(half_space, point.layer, bulk, scene.0.dimension());
+            sum += self.by_even_stress(place, slopes.map(|by| dot(&by, &inputs)));
+        }
         change_of_stress((half_space, &changes), (point, lower), scene, &tractions, |place, field| {
             for ([i, j], by) in cells {
                 sum += by[place].times(&field.at(*i, *j)) + by[place].times(&even);

@@ -1,12 +1,9 @@
 //! Of what derivatives are taken: columns of an increment, and of a cycle.
 
 use super::beneath::{Number, constants_for_fatigue, side_of};
-use super::change::Change;
+use super::cycle_loop;
 use super::error::SensitivityError;
-use super::field_weights::{RegionWeights, SLIP};
-use super::solved::Solved;
-use crate::fields::{add_scaled, dot, length, sum};
-use crate::history::{CycleRecord, STEP_COLUMNS, StepRecord, Value};
+use crate::history::CycleRecord;
 use crate::model::Body;
 use crate::plan::Plan;
 use crate::subsurface::Measure;
@@ -14,7 +11,7 @@ use crate::subsurface::fatigue::Parameter;
 use crate::subsurface::severity::constants_of;
 
 /// Columns of an increment that have derivatives.
-pub const COLUMNS: [&str; 24] = [
+pub const COLUMNS: [&str; 26] = [
     "normal_force",
     "approach",
     "actuator_approach",
@@ -36,10 +33,16 @@ pub const COLUMNS: [&str; 24] = [
     "elastic_energy",
     "external_work",
     "unresolved_energy",
+    "wear_work",
+    "bulk_work",
     "friction_coefficient",
     "worn_volume",
     "max_worn_depth",
 ];
+
+/// Columns of a cycle that have derivatives, beside those of its loop ([`cycle_loop::COLUMNS`]): sums of such of its increments.
+const OF_CYCLES: [&str; 5] =
+    ["dissipated_energy", "total_dissipated_energy", "worn_volume", "max_worn_depth", "friction_coefficient"];
 
 /// Ruiz's parameters.
 const RUIZ: [&str; 2] = ["ruiz_f1", "ruiz_f2"];
@@ -54,8 +57,8 @@ const OF_AREAS: &str = "an area is found between the cells, to a twentieth of on
 pub(super) enum Objective {
     /// A column of an increment; `None`: of the last one.
     Increment { increment: Option<usize>, column: &'static str },
-    /// The energy that friction dissipates in a cycle.
-    CycleEnergy { cycle: usize },
+    /// A column of a cycle.
+    Cycle { cycle: usize, column: &'static str },
     /// The largest value of a measure of the stress below the surface, in an increment; `None`: in the last one.
     Stress { increment: Option<usize>, measure: Measure },
     /// The largest value of a fatigue parameter below the surface, over a cycle; `None`: over the last one.
@@ -112,10 +115,16 @@ impl Objective {
                 Some(below) => below,
                 None => Ok(Self::Increment { increment: Some(index), column: column(last)? }),
             },
-            "cycles" if last == "dissipated_energy" => Ok(Self::CycleEnergy { cycle: index }),
             "cycles" => fatigue(Some(index), last).unwrap_or_else(|| {
-                let of = "of a cycle there are dissipated_energy and fatigue.crossland, ...; take others of its increments";
-                Err(refused(of.to_owned()))
+                let known = OF_CYCLES.into_iter().chain(cycle_loop::COLUMNS);
+                let column = known.clone().find(|known| *known == last);
+                let column = column.map(|column| Self::Cycle { cycle: index, column });
+                let all = known.collect::<Vec<_>>().join(", ");
+                column.ok_or_else(|| {
+                    refused(format!(
+                        "of a cycle there are {all}, fatigue.crossland, ...; take others of its increments"
+                    ))
+                })
             }),
             _ => Err(form()),
         }
@@ -133,10 +142,12 @@ impl Objective {
                 increment if increment < steps => Ok(vec![(Some(increment), 1.0)]),
                 _ => Err(refused(format!("the history has {steps} increments, from 0"))),
             },
-            Self::CycleEnergy { cycle } => {
-                let of = cycles.get(*cycle);
-                let of =
-                    of.ok_or_else(|| refused(format!("the history has {} cycles, from 0", cycles.len())))?;
+            Self::Cycle { column, .. } if cycle_loop::COLUMNS.contains(column) => Ok(Vec::new()),
+            Self::Cycle { cycle, column } => {
+                let of = cycle_of(cycles, *cycle).map_err(refused)?;
+                if *column != "dissipated_energy" {
+                    return Ok(vec![(Some(of.last_increment), 1.0)]);
+                }
                 // It is dissipated as often as there are cycles that it stands for.
                 let each = 1.0 / of.stands_for as f64;
                 Ok(vec![(Some(of.last_increment), each), (of.first_increment.checked_sub(1), -each)])
@@ -153,15 +164,14 @@ impl Objective {
     ) -> Result<Option<Number>, SensitivityError> {
         let refused = |reason: String| SensitivityError::Objective { name: name.to_owned(), reason };
         match *self {
-            Self::Increment { .. } | Self::CycleEnergy { .. } => Ok(None),
+            Self::Increment { .. } | Self::Cycle { .. } => Ok(None),
             Self::Stress { increment, measure } => match increment.unwrap_or(steps.saturating_sub(1)) {
                 increment if increment < steps => Ok(Some(Number::Measure { measure, increment })),
                 _ => Err(refused(format!("the history has {steps} increments, from 0"))),
             },
             Self::Fatigue { cycle, .. } | Self::Ruiz { cycle, .. } => {
-                let of = cycle.map_or(cycles.last(), |cycle| cycles.get(cycle));
-                let of =
-                    of.ok_or_else(|| refused(format!("the history has {} cycles, from 0", cycles.len())))?;
+                let last = cycles.len().saturating_sub(1);
+                let of = cycle_of(cycles, cycle.unwrap_or(last)).map_err(refused)?;
                 // With the state that the cycle starts from, where there is one.
                 let increments = of.first_increment.saturating_sub(1)..=of.last_increment;
                 Ok(Some(match *self {
@@ -172,6 +182,37 @@ impl Objective {
                     },
                 }))
             }
+        }
+    }
+
+    /// The column of increments that it is a sum of.
+    pub fn column_of_increments(&self) -> &'static str {
+        match self {
+            Self::Cycle { column: "total_dissipated_energy", .. } => "dissipated_energy",
+            _ => self.column(),
+        }
+    }
+
+    /// The cycle and the number of its loop that it is, if it is one.
+    pub fn of_loop<'a>(
+        &self,
+        name: &str,
+        cycles: &'a [CycleRecord],
+    ) -> Result<Option<(&'a CycleRecord, &'static str)>, SensitivityError> {
+        let Self::Cycle { cycle, column } = self else { return Ok(None) };
+        if !cycle_loop::COLUMNS.contains(column) {
+            return Ok(None);
+        }
+        let refused = |reason| SensitivityError::Objective { name: name.to_owned(), reason };
+        Ok(Some((cycle_of(cycles, *cycle).map_err(refused)?, column)))
+    }
+
+    /// Whether the slip of increments is needed for it.
+    pub fn needs_slip(&self) -> bool {
+        match self {
+            Self::Ruiz { .. } => true,
+            Self::Cycle { column, .. } => cycle_loop::COLUMNS.contains(column),
+            _ => false,
         }
     }
 
@@ -205,20 +246,24 @@ impl Objective {
                 .case
                 .is_frictionless()
                 .then(|| "without friction there is neither shear nor slip".to_owned()),
-            Self::Increment { .. } | Self::CycleEnergy { .. } => None,
+            Self::Increment { .. } | Self::Cycle { .. } => None,
         }
     }
 
     /// The column that it is made of; of a number of the stress what that is called.
     pub fn column(&self) -> &'static str {
         match self {
-            Self::Increment { column, .. } => column,
-            Self::CycleEnergy { .. } => "dissipated_energy",
+            Self::Increment { column, .. } | Self::Cycle { column, .. } => column,
             Self::Stress { measure, .. } => measure.name(),
             Self::Fatigue { parameter, .. } => parameter.name(),
             Self::Ruiz { with_tension, .. } => RUIZ[usize::from(*with_tension)],
         }
     }
+}
+
+/// A cycle of a history, or that there is none such.
+fn cycle_of(cycles: &[CycleRecord], cycle: usize) -> Result<&CycleRecord, String> {
+    cycles.get(cycle).ok_or_else(|| format!("the history has {} cycles, from 0", cycles.len()))
 }
 
 /// That a name is none of those known.
@@ -232,143 +277,4 @@ fn none_of<const N: usize>(known: [&str; N]) -> String {
 /// When it is none, with those that are.
 pub fn check_name(name: &str) -> Result<(), SensitivityError> {
     Objective::new(name).map(drop)
-}
-
-/// Value of a column in a record.
-pub(super) fn value_of(record: &StepRecord, column: &str) -> f64 {
-    let found = STEP_COLUMNS.iter().find(|known| known.name == column);
-    match found.map(|column| &column.value) {
-        Some(Value::Real(value)) => value(record),
-        _ => f64::NAN,
-    }
-}
-
-/// What derivatives are taken of in an increment.
-#[derive(Debug, Clone)]
-pub(super) enum Column {
-    /// A column of its record.
-    Named(&'static str),
-    /// The sum of a field, each cell times its weight in the region.
-    Field(RegionWeights),
-}
-
-/// A column of an increment as a row: what it is of all that changes there.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Row<'a> {
-    /// Force, motion or motion of the far end of a degree of freedom.
-    Reached(usize, usize),
-    /// An energy.
-    Energy(usize),
-    /// The pressure of a cell.
-    Pressure(usize),
-    /// The shear of a cell, along a direction.
-    Shear(usize, [f64; 2]),
-    /// Pressure (0), shear along x or y (1, 2) or slip of the increment (3, 4) of all cells, each by a weight.
-    Field(usize, &'a [f64]),
-    /// The friction coefficient in force.
-    Friction,
-    /// The worn depth of a cell.
-    Worn(usize),
-    /// The worn volume, with the area that a cell stands for.
-    WornVolume(f64),
-    /// Nothing.
-    Nothing,
-}
-
-impl<'a> Row<'a> {
-    /// That of a column of an increment.
-    pub fn new(column: &'a Column, solved: &Solved) -> Self {
-        let column = match column {
-            Column::Named(column) => *column,
-            Column::Field(of) => return Self::Field(of.field, &of.weights),
-        };
-        match column {
-            "normal_force" => Self::Reached(0, 0),
-            "approach" => Self::Reached(0, 1),
-            "actuator_approach" => Self::Reached(0, 2),
-            "tangential_force_x" => Self::Reached(1, 0),
-            "tangential_force_y" => Self::Reached(2, 0),
-            "shift_x" => Self::Reached(1, 1),
-            "shift_y" => Self::Reached(2, 1),
-            "actuator_x" => Self::Reached(1, 2),
-            "actuator_y" => Self::Reached(2, 2),
-            "twist_moment" => Self::Reached(3, 0),
-            "twist" => Self::Reached(3, 1),
-            "tilt_x" => Self::Reached(4, 1),
-            "tilt_y" => Self::Reached(5, 1),
-            "tilt_moment_x" => Self::Reached(4, 0),
-            "tilt_moment_y" => Self::Reached(5, 0),
-            "max_pressure" => {
-                let pressed = solved.contact.cells().map(|cell| (cell, solved.tractions[0][cell]));
-                largest(pressed).map_or(Self::Nothing, Self::Pressure)
-            }
-            "max_shear" => {
-                let size = |cell: usize| (cell, length(solved.shear_at(cell)));
-                largest(solved.contact.cells().map(size)).map_or(Self::Nothing, |cell| {
-                    let shear = solved.shear_at(cell);
-                    Self::Shear(cell, shear.map(|part| part / length(shear)))
-                })
-            }
-            "dissipated_energy" => Self::Energy(0),
-            "elastic_energy" => Self::Energy(1),
-            "external_work" => Self::Energy(2),
-            "unresolved_energy" => Self::Energy(3),
-            "friction_coefficient" => Self::Friction,
-            "worn_volume" => Self::WornVolume(solved.area),
-            "max_worn_depth" => {
-                largest(solved.worn.iter().copied().enumerate()).map_or(Self::Nothing, Self::Worn)
-            }
-            _ => Self::Nothing,
-        }
-    }
-
-    /// Its change; `friction`: that of the coefficient in force.
-    pub fn change(&self, change: &Change, friction: f64) -> f64 {
-        match *self {
-            Self::Reached(freedom, what) => change.reached[freedom][what],
-            Self::Energy(energy) => change.energies[energy],
-            Self::Pressure(cell) => change.pressure[cell],
-            Self::Shear(cell, along) => along[0] * change.shear[0][cell] + along[1] * change.shear[1][cell],
-            Self::Field(0, weights) => dot(weights, &change.pressure),
-            Self::Field(field, weights) if field >= SLIP => dot(weights, &change.slip[field - SLIP]),
-            Self::Field(component, weights) => dot(weights, &change.shear[component - 1]),
-            Self::Friction => friction,
-            Self::Worn(cell) => change.worn[cell],
-            Self::WornVolume(area) => area * sum(&change.worn),
-            Self::Nothing => 0.0,
-        }
-    }
-
-    /// Backwards: adds what it counts, by a weight.
-    pub fn add(&self, weight: f64, to: &mut Change, friction: &mut f64) {
-        match *self {
-            Self::Reached(freedom, what) => to.reached[freedom][what] += weight,
-            Self::Energy(energy) => to.energies[energy] += weight,
-            Self::Pressure(cell) => to.pressure[cell] += weight,
-            Self::Shear(cell, along) => {
-                to.shear[0][cell] += weight * along[0];
-                to.shear[1][cell] += weight * along[1];
-            }
-            Self::Field(0, weights) => add_scaled(&mut to.pressure, weight, weights),
-            Self::Field(field, weights) if field >= SLIP => {
-                add_scaled(&mut to.slip[field - SLIP], weight, weights);
-            }
-            Self::Field(component, weights) => add_scaled(&mut to.shear[component - 1], weight, weights),
-            Self::Friction => *friction += weight,
-            Self::Worn(cell) => to.worn[cell] += weight,
-            Self::WornVolume(area) => to.worn.iter_mut().for_each(|worn| *worn += weight * area),
-            Self::Nothing => {}
-        }
-    }
-}
-
-/// The first cell with the largest number, where one is positive.
-fn largest(numbers: impl Iterator<Item = (usize, f64)>) -> Option<usize> {
-    let (mut most, mut at) = (0.0, None);
-    for (cell, number) in numbers {
-        if number > most {
-            (most, at) = (number, Some(cell));
-        }
-    }
-    at
 }

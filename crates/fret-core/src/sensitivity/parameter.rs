@@ -355,9 +355,9 @@ fn shape_number(case: &Case, [first, second]: [bool; 2], shape: &str, number: &s
 fn body_number(case: &Case, of_upper: bool, steps: &[Step<'_>]) -> Found {
     let body = if of_upper { case.bodies.upper() } else { case.bodies.lower() };
     let Body::Elastic(body) = body else { return Err("this body is rigid".to_owned()) };
-    if case.endless_axis().is_some() {
+    if case.periodic.one_axis().is_some() {
         return Err(
-            "derivatives by constants of layers are not taken of line contacts, nor where one axis alone is periodic".to_owned(),
+            "derivatives by constants of layers are not taken where one axis alone is periodic".to_owned()
         );
     }
     let (coating, (number, value)) = match *steps {

@@ -6,7 +6,6 @@ use super::error::SensitivityError;
 use super::objective::Objective;
 use super::parameter::Parameter;
 use crate::case::{Case, Stage, StageControl};
-use crate::history::CycleRecord;
 use crate::kernel::uniform_response;
 use crate::model::{CoulombFriction, Integration};
 use crate::plan::{Coupling, Plan, Simplification};
@@ -30,7 +29,6 @@ pub(super) fn check(plan: &Plan) -> Result<(), SensitivityError> {
         (plan.moves, "kinematics.displacement = \"finite\"", without),
         (case.stages.iter().any(Stage::rolls), "roll", without),
         (by_mean_gap, "mean_gap", "prescribe the normal force"),
-        (case.stages.iter().any(Stage::stretches), "bulk_stress", without),
         (plan.start.is_some(), "a start from another history", "give all stages in one case"),
         (
             case.stages.iter().any(|stage| stage.history_tolerance.is_some()),
@@ -55,17 +53,6 @@ fn wears_otherwise(case: &Case) -> bool {
         let plain = wear.layers.is_none() && wear.thinning_tolerance.is_none() && wear.own.is_none();
         !(plain && wear.debris.is_none() && wear.rim.is_none() && wear.coefficient.is_some())
     })
-}
-
-/// Whether results of a history have derivatives whose cycles may stand for more than themselves.
-pub(super) fn check_jumps(cycles: &[CycleRecord], objectives: &[Objective]) -> Result<(), SensitivityError> {
-    let jumps = cycles.iter().any(|cycle| cycle.stands_for > 1);
-    let name = "external_work";
-    if jumps && objectives.iter().any(|objective| objective.column() == name) {
-        let reason = "with cycle jumps no derivative is taken of it: take the dissipated energy, or every = 1 in [wear]";
-        return Err(SensitivityError::Objective { name: name.to_owned(), reason: reason.to_owned() });
-    }
-    Ok(())
 }
 
 /// Whether the numbers and the results that are asked for have derivatives with the simplifications of a plan.
@@ -120,8 +107,8 @@ pub(super) fn check_request(
             }
         }
     }
-    let of_wear = ["worn_volume", "max_worn_depth"];
-    let by_gap = ["unresolved_energy"];
+    let of_wear = ["worn_volume", "max_worn_depth", "wear_work"];
+    let stretches = plan.case.stages.iter().any(Stage::stretches);
     let (wears, refused) = (plan.case.wear.is_some(), |name: &str, reason: &str| {
         Err(SensitivityError::Objective { name: name.to_owned(), reason: reason.to_owned() })
     });
@@ -129,8 +116,8 @@ pub(super) fn check_request(
         if of_wear.contains(&column) && !wears {
             return refused(column, "nothing wears in this case");
         }
-        if by_gap.contains(&column) && wears {
-            return refused(column, "of surfaces that wear no derivative is taken of it");
+        if column == "bulk_work" && !stretches {
+            return refused(column, "no bulk stress acts in this case");
         }
     }
     let of_friction = |objective: &&Objective| objective.column() == "friction_coefficient";
@@ -148,7 +135,7 @@ pub(super) fn check_request(
 /// Results that change their sign in a mirror: of bodies whose pressure and shear begin to act on each other they do not stay to first order.
 const ODD: [&str; 6] = ["twist", "twist_moment", "tilt_x", "tilt_y", "tilt_moment_x", "tilt_moment_y"];
 
-/// Whether the gap, without a tilt, a twist or a map, is the same after half a turn: what pressure and shear then do to each other cancels to
+/// Whether the gap, without a tilt, a twist, bulk stresses or a map, is the same after half a turn: what pressure and shear then do to each other cancels to
 /// first order.
 fn is_point_symmetric(plan: &Plan) -> bool {
     let case = &plan.case;
@@ -157,7 +144,7 @@ fn is_point_symmetric(plan: &Plan) -> bool {
     let turned = gap.slice(s![..;-1, ..;-1]);
     let is_even =
         gap.iter().zip(turned).all(|(one, other)| one == other || (one - other).abs() <= 1e-12 * largest);
-    let is_flat_on = |stage: &Stage| !stage.tilts() && stage.twist.is_none();
+    let is_flat_on = |stage: &Stage| !stage.tilts() && stage.twist.is_none() && !stage.stretches();
     is_even && !case.friction.is_map() && case.stages.iter().all(is_flat_on)
 }
 

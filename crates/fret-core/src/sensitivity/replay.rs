@@ -83,6 +83,7 @@ fn solved(
         opens: snapshot.has_worn(last),
         zone,
         motions,
+        strain: scene.strain.under(load.step.bulk_stress),
         contact,
         slid: [vec![0.0; region.len()], vec![0.0; region.len()]],
         drift: [vec![0.0; region.len()], vec![0.0; region.len()]],
@@ -99,7 +100,8 @@ fn solved(
         if scene.is_frictional() {
             let moved = moved_by(&motions, place);
             for axis in 0..2 {
-                solved.slid[axis][cell] = moved[axis] - solved.displacements[1 + axis][cell];
+                let displaced = solved.displacements[1 + axis][cell] + solved.strain[axis] * place[axis];
+                solved.slid[axis][cell] = moved[axis] - displaced;
                 solved.drift[axis][cell] = solved.slid[axis][cell] - before.slid[axis][cell];
             }
         }

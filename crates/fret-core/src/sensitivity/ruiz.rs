@@ -5,9 +5,9 @@ use ndarray::Array2;
 
 use super::error::SensitivityError;
 use super::field_weights::{FieldWeights, SLIP};
-use super::largest::{Below, Largest};
-use super::objective::Column;
+use super::largest::Largest;
 use super::parameter::Parameter;
+use super::row::{Column, Composed};
 use super::scene::Scene;
 use crate::case::Side;
 use crate::subsurface::fatigue::{RuizParts, SurfacePoint};
@@ -19,7 +19,7 @@ pub(super) fn ruiz(
     with_tension: bool,
     scene: &Scene<'_>,
     parameters: &[Parameter],
-) -> Result<Below, SensitivityError> {
+) -> Result<Composed, SensitivityError> {
     let (beneath, [i, j]) = (largest.beneath, largest.found.cell);
     let pair_at =
         |pair: &Option<[Array2<f64>; 2]>| pair.as_ref().map_or([0.0; 2], |[x, y]| [x[[i, j]], y[[i, j]]]);
@@ -52,7 +52,7 @@ pub(super) fn ruiz(
             count(increment, SLIP, along.map(|part| factor * shear * part));
         }
     }
-    let mut found = Below { value: largest.found.value, columns, by: vec![0.0; parameters.len()] };
+    let mut found = Composed { value: largest.found.value, columns, by: vec![0.0; parameters.len()] };
     if with_tension {
         let mut by = vec![StressTensor::default(); cycle.len()];
         let slopes = cycle[tense].stress.slopes_of_tension_in_surface();

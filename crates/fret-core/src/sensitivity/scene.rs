@@ -11,6 +11,7 @@ use super::error::SensitivityError;
 use super::fields::Fields;
 use super::operators::{Made, Operators};
 use super::snapshot::Snapshot;
+use super::strain::Strain;
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceResponse};
 use crate::model::{ContactState, Rig, SurfaceGrid};
 use crate::plan::{Coupling, Plan};
@@ -39,6 +40,8 @@ pub(super) struct Scene<'a> {
     pub undeformed: Array2<f64>,
     /// Springs of the part in front of the mirrors.
     pub rig: Rig,
+    /// What bulk stresses do to the surfaces.
+    pub strain: Strain,
     /// Whether slip is asked for.
     pub tells_slip: bool,
 }
@@ -69,6 +72,7 @@ impl<'a> Scene<'a> {
             length,
             undeformed: field(region, &undeformed),
             rig: plan.case.springs().of_part(symmetry.copies()),
+            strain: Strain::of(plan, length),
             tells_slip: snapshots.iter().any(|snapshot| snapshot.slip.is_some()),
         }
     }

@@ -23,6 +23,7 @@ pub(super) struct Snapshot {
     shift: [f64; 2],
     twist: f64,
     tilt: [f64; 2],
+    bulk_stress: [[f64; 2]; 2],
     /// Accumulated slip of its cells along x and y [length], where it is asked for.
     pub slip: Option<[Vec<f64>; 2]>,
     /// Depth worn off both bodies together, after what happens to the surfaces where a cycle or a stage ends [length].
@@ -56,6 +57,7 @@ impl Snapshot {
             shift: state.shift,
             twist: state.twist,
             tilt: state.tilt,
+            bulk_stress: state.bulk_stress,
             slip: with_slip.then(|| slip.map(|field| touched.iter().map(|cell| field[*cell]).collect())),
             worn: state.worn_depth.as_ref().map(|depth| {
                 let same = last.and_then(|last| last.worn.as_ref()).filter(|known| ***known == *depth);
@@ -90,6 +92,7 @@ impl Snapshot {
             shift: self.shift,
             twist: self.twist,
             tilt: self.tilt,
+            bulk_stress: self.bulk_stress,
             ..ContactState::untouched(shape)
         }
     }

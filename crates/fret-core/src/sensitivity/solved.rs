@@ -47,8 +47,10 @@ pub(super) struct Solved {
     pub zone: Array2<Zone>,
     /// Rotations times the length [length].
     pub motions: [f64; MOTIONS],
+    /// Strain of the lower surface less that of the upper one by bulk stresses, times the length of the scene [length].
+    pub strain: [f64; 2],
     pub contact: ContactSet,
-    /// Tangential displacement of the upper surface over the lower [length], and what the rule of slip takes for its change.
+    /// Tangential displacement of the upper surface over the lower, with bulk strains [length], and what the rule of slip takes for its change.
     pub slid: Tangential,
     pub drift: Tangential,
     /// Load at its start and at its end, of the part in front of the mirrors, in controls of the same kinds; `None` before the first one.
@@ -76,6 +78,7 @@ impl Solved {
             opens: false,
             zone: Array2::from_elem(scene.region.shape, Zone::Open),
             motions: [0.0; MOTIONS],
+            strain: [0.0; 2],
             contact: ContactSet::of(cells, |_| false),
             slid: tangential(),
             drift: tangential(),

@@ -7,7 +7,7 @@ use super::cell::MOTIONS;
 use super::change::{Change, Solution};
 use super::contact::{Asked, Contact, Drive};
 use super::fields::Fields;
-use super::gradient::Snapshots;
+use super::gradient::{Snapshots, end_blocks};
 use super::increment::Increment;
 use super::krylov::LinearProblem;
 use super::linearised::Linearised;
@@ -85,6 +85,35 @@ cycles = 1
 increments = 8
 ";
 
+/// Surfaces that wear by the energy that friction dissipates, in jumps over two cycles, under a bulk stress.
+const WORN: &str = r"
+[grid]
+cells = [16, 16]
+size = [3.0, 3.0]
+[upper]
+rigid = true
+[lower]
+substrate = { young = 1.0, poisson = 0.3 }
+[profile.sphere]
+radius = 5.0
+[friction]
+coefficient = 0.3
+[wear]
+coefficient = 0.3
+every = 2
+largest_step = 1.0
+[solver]
+tolerance = 1e-11
+[[load]]
+normal_force = 0.15
+increments = 3
+[[load]]
+tangential_force = [0.03, 0.0]
+bulk_stress = [0.01, 0.004]
+cycles = 4
+increments = 8
+";
+
 fn vector(random: &mut Random, size: usize) -> Vec<f64> {
     (0..size).map(|_| random.between(-1.0, 1.0)).collect()
 }
@@ -97,17 +126,17 @@ fn fields(random: &mut Random, size: usize) -> Fields {
     [(); 3].map(|()| vector(random, size))
 }
 
-/// No change, of which slip is asked for.
+/// No change, of surfaces that may wear and of which slip is asked for.
 fn no_change(cells: usize) -> Change {
-    Change::none(cells).of_slip(true)
+    Change::none(cells).of_wear(true).of_slip(true)
 }
 
 fn change(random: &mut Random, cells: usize) -> Change {
     let mut tangential = || [(); 2].map(|()| vector(random, cells));
     let [shear, slid, drift, slip] = [(); 4].map(|()| tangential());
     Change {
-        worn: Vec::new(),
-        collected: Vec::new(),
+        worn: vector(random, cells),
+        collected: vector(random, cells),
         slip,
         pressure: vector(random, cells),
         shear,
@@ -115,6 +144,7 @@ fn change(random: &mut Random, cells: usize) -> Change {
         slid,
         drift,
         motions: array(random),
+        strain: array(random),
         energies: array(random),
         reached: [(); 6].map(|()| array(random)),
         start: array(random),
@@ -127,7 +157,14 @@ fn change(random: &mut Random, cells: usize) -> Change {
 
 fn drive(random: &mut Random, cells: usize) -> Drive {
     let (gap, response) = (vector(random, cells), fields(random, cells));
-    Drive { gap, friction: array(random), rig: array(random), wear: 0.0, response }
+    Drive {
+        gap,
+        friction: array(random),
+        rig: array(random),
+        wear: random.between(-1.0, 1.0),
+        strain: array(random),
+        response,
+    }
 }
 
 fn paths(random: &mut Random, cells: usize) -> PathChange {
@@ -151,6 +188,8 @@ fn of_drives(a: &Drive, b: &Drive) -> f64 {
     dot(&a.gap, &b.gap)
         + dot(&a.friction, &b.friction)
         + dot(&a.rig, &b.rig)
+        + a.wear * b.wear
+        + dot(&a.strain, &b.strain)
         + of_fields(&a.response, &b.response)
 }
 
@@ -180,7 +219,8 @@ fn each_increment(text: &str, mut show: impl FnMut(At<'_>, &mut Operators)) {
     let plan = Plan::new(Case::from_toml(text, "case.toml").unwrap()).unwrap();
     let mut run = Snapshots { steps: Vec::new(), cycles: Vec::new(), with_slip: true, observer: &mut Silent };
     Simulation::new(&plan).run(&mut run).unwrap();
-    let steps = run.steps;
+    let Snapshots { mut steps, cycles, .. } = run;
+    end_blocks(&mut steps, &cycles);
     let scene = Scene::new(&plan, &steps);
     let mut operators = scene.operators(&Arc::new(PairCompliance::of(&plan))).unwrap();
     let mut replay = Replay::new(&scene);
@@ -207,7 +247,7 @@ fn rule_of(at: &At<'_>) -> Rule {
 fn every_term_goes_backwards_by_its_transpose() {
     let mut random = Random::seeded(41);
     let mut kinds = [0; 3];
-    for text in [COUPLED, SIMILAR] {
+    for text in [COUPLED, SIMILAR, WORN] {
         each_increment(text, |at, operators| {
             let cells = at.scene.region.len();
             let contact_cells = at.now.contact.len();
@@ -385,7 +425,9 @@ impl Made {
                 0 => found.drive.gap.clone_from(&self.drive.gap),
                 1 => found.drive.friction = self.drive.friction,
                 2 => found.drive.rig = self.drive.rig,
-                3 => found.drive.response.clone_from(&self.drive.response),
+                3 => found.drive.wear = self.drive.wear,
+                4 => found.drive.strain = self.drive.strain,
+                5 => found.drive.response.clone_from(&self.drive.response),
                 _ => found.numbers = self.numbers,
             },
         }
@@ -397,14 +439,17 @@ impl Made {
 type Copies = fn(&mut Change, &Change);
 
 /// The blocks of a change.
-const BLOCKS: [(&str, Copies); 14] = [
+const BLOCKS: [(&str, Copies); 17] = [
     ("pressure", |to, of| to.pressure.clone_from(&of.pressure)),
     ("shear", |to, of| to.shear.clone_from(&of.shear)),
     ("gap", |to, of| to.gap.clone_from(&of.gap)),
     ("slid", |to, of| to.slid.clone_from(&of.slid)),
     ("drift", |to, of| to.drift.clone_from(&of.drift)),
     ("slip", |to, of| to.slip.clone_from(&of.slip)),
+    ("worn", |to, of| to.worn.clone_from(&of.worn)),
+    ("collected", |to, of| to.collected.clone_from(&of.collected)),
     ("motions", |to, of| to.motions = of.motions),
+    ("strain", |to, of| to.strain = of.strain),
     ("energies", |to, of| to.energies = of.energies),
     ("reached", |to, of| to.reached = of.reached),
     ("start", |to, of| to.start = of.start),
@@ -413,7 +458,8 @@ const BLOCKS: [(&str, Copies); 14] = [
     ("load", |to, of| to.load = of.load),
     ("ratio", |to, of| to.ratio = of.ratio),
 ];
-const OF_DRIVE: [&str; 5] = ["gap before deformation", "friction", "rig", "response", "controls"];
+const OF_DRIVE: [&str; 7] =
+    ["gap before deformation", "friction", "rig", "wear", "strain", "response", "controls"];
 
 /// The whole of an increment, from every block of what it is made from to every block of what it leaves: each pair by its own size, which may be a
 /// millionth of the largest. 1e-7 of that, and 1e-11 of all that the block leaves: the linear equations are solved to 1e-12 both ways.
@@ -421,7 +467,7 @@ const OF_DRIVE: [&str; 5] = ["gap before deformation", "friction", "rig", "respo
 fn an_increment_goes_backwards_by_its_transpose_block_by_block() {
     let mut random = Random::seeded(42);
     let (mut pairs, mut smallest) = (0, f64::INFINITY);
-    for text in [COUPLED, SIMILAR] {
+    for text in [COUPLED, SIMILAR, WORN] {
         each_increment(text, |at, operators| {
             let cells = at.scene.region.len();
             let increment = Increment::new(at.scene, (&at.snapshot.record, at.load), at.now, at.past);
@@ -432,7 +478,8 @@ fn an_increment_goes_backwards_by_its_transpose_block_by_block() {
             let left: Vec<Change> = parts
                 .iter()
                 .map(|Made { before, former, drive, numbers }| {
-                    increment.forward(&mut equations, [before, former], (drive, numbers)).unwrap()
+                    let next = increment.forward(&mut equations, [before, former], (drive, numbers)).unwrap();
+                    if next.worn.is_empty() { next.of_wear(true) } else { next }
                 })
                 .collect();
             for (to, copies) in BLOCKS {

@@ -21,7 +21,7 @@ impl Loop {
     }
 
     /// Points of a steady cycle that starts at 0 on the upper plateau, a quarter of it `n` increments.
-    fn points(&self, n: usize) -> Vec<LoopPoint> {
+    fn points(&self, n: usize) -> Vec<LoopPoint<f64>> {
         let part = |k: usize| k as f64 / n as f64;
         let mut dissipated = 0.0;
         let mut points = Vec::new();
