@@ -23,7 +23,7 @@ use equations::Equations;
 use point::Point;
 
 /// Left over by the equations, of the pressure, where the quick way goes on; and where that does not help, times this.
-pub const NEAR: f64 = 1e-3;
+const NEAR: f64 = 1e-3;
 const NEARER: f64 = 1e-3;
 /// Below this fraction of the tolerance the quick way has nothing left to do but to say so.
 const ENOUGH: f64 = 0.1;
@@ -99,8 +99,8 @@ impl<'a> AugmentedNewton<'a> {
         let here = equations.start(tractions, displacements);
         let merit = equations.merit(&here);
         operators.linear.begin();
-        // Near the solution, and beside a machine that gives, single precision may be what stands in the way.
-        if problem.give() != [0.0; 3] || merit < NEAR * here.size() {
+        // Beside a machine that gives single precision would lose the contact's own displacement.
+        if problem.give() != [0.0; 3] {
             operators.linear.avoid_single_precision();
         }
         Self { equations, here, merit, forcing: most_forcing(operators), steps: 0, best: merit, stalled: 0 }

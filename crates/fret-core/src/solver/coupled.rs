@@ -56,16 +56,11 @@ pub fn solve(
         Scheme::Monolithic => newton::solve(&problem, p, u, operators, settings, callback),
         Scheme::Staggered => staggered::solve(&problem, p, u, operators, settings, callback),
     };
-    if let (Err(SolveError::NotConverged { reached, .. }), Scheme::Monolithic, true) =
+    if let (Err(SolveError::NotConverged { .. }), Scheme::Monolithic, true) =
         (&solution, settings.scheme, settings.another_way)
     {
         let mut found = None;
-        if *reached < augmented_newton::NEAR {
-            // From where the quick way stands.
-            let from = p.clone();
-            found = augmented_newton::solve(&problem, &from, (p, u), operators, settings, callback)?;
-        }
-        if found.is_none() && operators.preconditioner.is_stiff() && increment.changes_normal_load() {
+        if operators.preconditioner.is_stiff() && increment.changes_normal_load() {
             let from = nested_start(&problem, start.clone(), operators, method, callback)?;
             found = augmented_newton::solve(&problem, &from, (p, u), operators, settings, callback)?;
         }
