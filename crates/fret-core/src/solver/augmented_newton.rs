@@ -98,11 +98,6 @@ impl<'a> AugmentedNewton<'a> {
         operators.compliance.full(tractions.parts(), displacements.parts_mut());
         let here = equations.start(tractions, displacements);
         let merit = equations.merit(&here);
-        operators.linear.begin();
-        // Beside a machine that gives single precision would lose the contact's own displacement.
-        if problem.give() != [0.0; 3] {
-            operators.linear.avoid_single_precision();
-        }
         Self { equations, here, merit, forcing: most_forcing(operators), steps: 0, best: merit, stalled: 0 }
     }
 

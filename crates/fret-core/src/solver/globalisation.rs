@@ -1,8 +1,5 @@
 //! How far a Newton step is solved for.
 
-/// A residual at which the active sets are not yet those of the solution.
-const FAR: f64 = 0.1;
-
 /// The forcing term of the inexact Newton method (Eisenstat & Walker 1996): relative residual of the linear problems. They are solved
 /// further while the residual falls fast, and while it does not fall.
 #[derive(Debug)]
@@ -34,9 +31,6 @@ impl ForcingTerm {
     const ENOUGH: f64 = 0.8;
     /// An iteration does not pay when it leaves more than this of the residual.
     const NO_GAIN: f64 = 0.9;
-    /// After so many iterations without progress linear problems are to be solved in double precision, unless the solution is [`FAR`]:
-    /// then the active sets are what stands in the way.
-    const MAX_STALLED: i32 = 3;
 
     /// The forcing term after a residual.
     pub fn next(&mut self, residual: f64, tolerance: f64) -> f64 {
@@ -49,11 +43,6 @@ impl ForcingTerm {
             if ratio > 0.0 { (Self::GAMMA * ratio).clamp(Self::LEAST, Self::MOST) } else { Self::MOST };
         let wanted = falling * 0.1_f64.powi(self.stalled.min(6));
         wanted.max((Self::ENOUGH * tolerance / residual).min(Self::MOST))
-    }
-
-    /// Whether single precision may be what stands in the way.
-    pub fn wants_double_precision(&self) -> bool {
-        self.stalled >= Self::MAX_STALLED && self.last < FAR
     }
 }
 
@@ -69,20 +58,11 @@ mod tests {
         assert_eq!(forcing.next(1e-5, 1e-8), 0.003);
         assert!((forcing.next(1e-5, 1e-8) - 0.03).abs() < 1e-15); // stalled: a tenth of 0.3
         assert!((forcing.next(1e-5, 1e-8) - 0.003).abs() < 1e-15);
-        assert!(!forcing.wants_double_precision());
-        forcing.next(1e-5, 1e-8);
-        assert!(forcing.wants_double_precision());
         // Near the tolerance no further than the next residual needs.
         assert!((forcing.next(4e-8, 1e-8) - 0.2).abs() < 1e-15);
         assert_eq!((forcing.best, forcing.without_gain), (4e-8, 0));
         forcing.next(5e-8, 1e-8);
         forcing.next(4e-8, 1e-8);
         assert_eq!((forcing.best, forcing.without_gain), (4e-8, 2));
-        // Far from the solution a stall says nothing of precision.
-        let mut far = ForcingTerm::default();
-        for _ in 0..6 {
-            far.next(0.5, 1e-8);
-            assert!(!far.wants_double_precision());
-        }
     }
 }

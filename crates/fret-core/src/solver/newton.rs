@@ -40,7 +40,6 @@ pub fn solve(
     let mut iterate = Iterate::new(problem, tractions, displacements, operators);
     let mut forcing = ForcingTerm::default();
     let mut circles_left = MOST_ROUNDS_TO_CIRCLES;
-    operators.linear.begin();
     // Shear alone has no other way to be left to; in the staggered scheme it is half a step.
     let patience = match (operators.preconditioner.is_stiff(), operators.preconditioner.is_in_period()) {
         (false, _) => LOST_WITHOUT_GAIN,
@@ -48,10 +47,6 @@ pub fn solve(
         (true, true) => LOST_WITHOUT_GAIN_IN_STIFF_PERIOD,
     };
     let has_another_resort = problem.pressure == Pressure::Unknown;
-    if problem.give() != [0.0; 3] {
-        // Beside a compliant rig single precision would lose the contact's own displacement.
-        operators.linear.avoid_single_precision();
-    }
     for iteration in 0..settings.max_newton_iterations {
         let residual = iterate.evaluate();
         if callback(iteration, residual).is_break() {
@@ -68,9 +63,6 @@ pub fn solve(
         let target = forcing.next(residual, settings.tolerance);
         if has_another_resort && forcing.without_gain >= patience {
             return Err(not_converged(iteration, &forcing));
-        }
-        if forcing.wants_double_precision() {
-            operators.linear.avoid_single_precision();
         }
         iterate.find_sets();
         iterate.find_step(target, settings, operators);

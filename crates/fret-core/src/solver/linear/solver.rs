@@ -20,24 +20,9 @@ const MOST_STEPS: usize = 30;
 pub struct LinearSolver {
     double: Krylov<f64>,
     single: Krylov<f32>,
-    /// Nothing is left to chance any more: everything in double precision.
-    double_only: bool,
 }
 
 impl LinearSolver {
-    /// Makes ready for an increment.
-    pub fn begin(&mut self) {
-        if std::mem::take(&mut self.double_only) {
-            self.double = Krylov::default();
-        }
-    }
-
-    /// From now on everything in double precision.
-    pub fn avoid_single_precision(&mut self) {
-        self.double_only = true;
-        self.single = Krylov::default();
-    }
-
     /// Finds the `step` of the tractions.
     pub fn solve(
         &mut self,
@@ -46,7 +31,7 @@ impl LinearSolver {
         preconditioner: &mut Preconditioner,
         step: &mut ContactVector<f64>,
     ) {
-        let Self { double, single, double_only } = self;
+        let Self { double, single } = self;
         right_side(problem, step);
         let size = step.norm();
         if !(size > 0.0) {
@@ -54,8 +39,8 @@ impl LinearSolver {
         }
         let coupled = !problem.gap.is_empty();
         let forcing = problem.forcing.max(problem.floor / size);
-        let operator = if *double_only {
-            None
+        let operator = if problem.give != [0.0; 3] {
+            None // beside a machine that gives single precision would lose the contact's own displacement
         } else if coupled {
             compliance.full_single()
         } else {
