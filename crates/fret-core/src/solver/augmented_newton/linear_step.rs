@@ -29,12 +29,6 @@ struct Active {
     tilt: Option<TiltMotions>,
 }
 
-/// Tractions packed over the contact.
-struct Packed {
-    pressure: Vec<f64>,
-    shear: TangentialField,
-}
-
 /// Fit of rigid motions to vectors of the cells, by least squares.
 #[derive(Default)]
 struct Fit {
@@ -125,8 +119,8 @@ impl Equations<'_> {
         Some(Active { contact, sets, augmented, bound, motions, tilt })
     }
 
-    /// What is known of the next point; `None` where nothing carries the normal force.
-    fn known_part(&self, here: &Point, active: &Active) -> Option<Packed> {
+    /// What is known of the next point, packed over the contact; `None` where nothing carries the normal force.
+    fn known_part(&self, here: &Point, active: &Active) -> Option<Tractions> {
         let Self { problem, .. } = self;
         let Active { contact, sets, augmented, bound, motions, tilt } = active;
         let mut pressure = contact.packed(&here.tractions.pressure);
@@ -168,11 +162,11 @@ impl Equations<'_> {
                 shear.set(cell, [0, 1].map(|axis| q[axis] + bound.bound[cell] * push[axis]));
             }
         }
-        Some(Packed { pressure, shear })
+        Some(Tractions { pressure, shear })
     }
 
     /// Gap and slip that the rest of the step is to remove, packed: without motions by force.
-    fn left_over(&self, active: &Active, packed: &Packed, known: &Point) -> (Vec<f64>, TangentialField) {
+    fn left_over(&self, active: &Active, packed: &Tractions, known: &Point) -> (Vec<f64>, TangentialField) {
         let Self { problem, .. } = self;
         let Active { contact, sets, motions, .. } = active;
         let approach = problem.normal.approach_under(&packed.pressure).unwrap_or(0.0);
@@ -196,7 +190,7 @@ impl Equations<'_> {
     }
 
     /// The motions of the next point: those by force leave least of the equations.
-    fn motion_of(&self, active: &Active, packed: &Packed, next: &Point) -> [f64; 3] {
+    fn motion_of(&self, active: &Active, packed: &Tractions, next: &Point) -> [f64; 3] {
         let Self { problem, .. } = self;
         let Active { contact, sets, motions, .. } = active;
         let fixed = self.motion_under(&next.tractions.shear, [0.0; 3]);
@@ -225,7 +219,7 @@ impl Equations<'_> {
 }
 
 impl Active {
-    fn scatter(&self, packed: &Packed, tractions: &mut Tractions) {
+    fn scatter(&self, packed: &Tractions, tractions: &mut Tractions) {
         self.contact.scatter(&packed.pressure, 1.0, &mut tractions.pressure);
         self.contact.scatter_tangential(&packed.shear, &mut tractions.shear);
     }
@@ -241,7 +235,7 @@ impl Active {
     }
 
     /// Shear of a slipping cell across its trial shear.
-    fn turned(&self, packed: &Packed, cell: usize) -> f64 {
+    fn turned(&self, packed: &Tractions, cell: usize) -> f64 {
         across(self.sets.direction.at(cell), packed.shear.at(cell))
     }
 }

@@ -3,6 +3,7 @@
 use super::super::contact_set::ContactSet;
 use super::super::prescribed::TangentialLoads;
 use super::super::region::Region;
+use crate::fields::solved;
 use crate::model::TangentialField;
 
 /// The three rigid tangential motions of the cells in contact: fields (1, 0), (0, 1) and (-y, x) / length.
@@ -126,22 +127,7 @@ impl RigidMotions {
                 b[m] = 0.0;
             }
         }
-        // Elimination without exchanges: the matrix is a Gram matrix.
-        for m in 0..3 {
-            for n in m + 1..3 {
-                let factor = a[n][m] / a[m][m];
-                for l in m..3 {
-                    a[n][l] -= factor * a[m][l];
-                }
-                b[n] -= factor * b[m];
-            }
-        }
-        let mut x = [0.0; 3];
-        for m in (0..3).rev() {
-            let rest: f64 = (m + 1..3).map(|n| a[m][n] * x[n]).sum();
-            x[m] = if a[m][m].abs() > 0.0 { (b[m] - rest) / a[m][m] } else { 0.0 };
-        }
-        x
+        solved(a, b, 0.0)
     }
 }
 

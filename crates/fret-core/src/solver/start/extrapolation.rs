@@ -56,7 +56,8 @@ impl ContactSolver<'_> {
         self.grown_by(area, sum_of(pressure) / sum_of(&state.pressure), state)
     }
 
-    /// Tractions of a contact whose area and force have grown by these factors; `None` where one of them says nothing.
+    /// Tractions of a contact whose area and force have grown by these factors; `None` where one of them says nothing, and in a period, where islands
+    /// of contact grow each about its own middle.
     fn grown_by(&self, area: f64, force: f64, state: &ContactState) -> Option<GridTractions> {
         let last_solved = self.memory.last.as_ref()?;
         let growth = SelfSimilarGrowth {
@@ -64,7 +65,8 @@ impl ContactSolver<'_> {
             strengthening: force / area,
             mirrored: self.symmetry.axes(),
         };
-        let grows = area.is_finite() && force.is_finite() && area > 0.0 && force > 0.0;
+        let is_one = !self.response.is_periodic();
+        let grows = is_one && area.is_finite() && force.is_finite() && area > 0.0 && force > 0.0;
         grows.then(|| growth.of(state, &last_solved.gap))
     }
 

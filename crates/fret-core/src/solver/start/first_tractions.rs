@@ -41,22 +41,19 @@ impl ContactSolver<'_> {
         (state, load): (&ContactState, &LoadStep),
         region: Region,
     ) -> Tractions {
-        let coupled = self.coupling == Coupling::Coupled;
         let before = self.memory.last_load.filter(|_| self.goes_in_cycles() && start.is_none());
         let as_last = before
             .and_then(|from| self.memory.last_cycle.tractions([&from, load], (region, self.grid.cells())));
         if let Some(tractions) = as_last {
             return tractions;
         }
-        if self.rolled != [0.0; 2] && start.is_none() {
-            let tractions = GridTractions::of(state).carried(self.rolled);
-            return Tractions {
-                pressure: region.gather(&tractions.pressure),
-                shear: region.gather_tangential(&tractions.shear),
-            };
-        }
-        let grown = start.filter(|_| coupled).and_then(|pressure| self.grown_to(pressure, state));
-        let GridTractions { pressure, shear } = grown.unwrap_or_else(|| self.extrapolated(state, load));
+        let grown = start.filter(|_| self.coupling == Coupling::Coupled);
+        let GridTractions { pressure, shear } = if self.rolled != [0.0; 2] && start.is_none() {
+            GridTractions::of(state).carried(self.rolled)
+        } else {
+            let grown = grown.and_then(|pressure| self.grown_to(pressure, state));
+            grown.unwrap_or_else(|| self.extrapolated(state, load))
+        };
         Tractions { pressure: region.gather(&pressure), shear: region.gather_tangential(&shear) }
     }
 
@@ -75,8 +72,9 @@ impl ContactSolver<'_> {
             }
             _ => true,
         };
-        // A coupled contact that has grown before goes on from itself.
-        let goes_on = self.coupling == Coupling::Coupled && self.memory.before.is_some();
+        // A coupled contact that has grown before goes on from itself, and so does one in a period.
+        let goes_on = self.coupling == Coupling::Coupled
+            && (self.memory.before.is_some() || self.response.is_periodic());
         if touched && (!far || goes_on) {
             return Ok(None);
         }
