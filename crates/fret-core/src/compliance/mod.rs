@@ -19,4 +19,4 @@ pub use product::SharedWorkspace;
 pub use spectral::SpectralCompliance;
 pub(crate) use spectral::{NORMAL_BLOCKS, TANGENTIAL_BLOCKS};
 pub use surface_response::SurfaceResponse;
-pub(crate) use surface_response::{FULL_BLOCKS, mirrors};
+pub(crate) use surface_response::mirrors;

@@ -45,7 +45,7 @@ pub(super) const fn block(output: usize, input: usize, kernel: usize, sign: f64)
 }
 
 /// Inputs and outputs z, x, y; kernels zz, xx, yy, xy, zx, zy. `u_x` from pressure is minus `u_z` from `q_x` (reciprocity of odd kernels).
-pub(crate) const FULL_BLOCKS: [Block; 9] = [
+pub(super) const FULL_BLOCKS: [Block; 9] = [
     block(0, 0, 0, 1.0),
     block(1, 1, 1, 1.0),
     block(2, 2, 2, 1.0),

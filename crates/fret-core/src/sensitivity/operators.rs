@@ -75,8 +75,8 @@ impl Made {
     fn around(&self, region: Region) -> Result<Around, SensitivityError> {
         let Self { pair, set, spacing, .. } = self;
         let waves = pair.table.as_ref().map(|table| CellWaves { table, spacing: *spacing });
-        let alone = Preconditioner::new(&pair.response, waves, region.shape, *set).map_err(failed)?;
-        let preconditioner = alone.together(&pair.response, waves, region.shape, *set).map_err(failed)?;
+        let preconditioner =
+            Preconditioner::new(&pair.response, waves, region.shape, *set).map_err(failed)?;
         let compliance = self.compliance(region.shape)?;
         Ok(Around { region, contact: ContactSet::default(), compliance, preconditioner })
     }
@@ -208,10 +208,9 @@ impl Operators {
         weights: &mut SlipWeights<f64>,
     ) {
         let preconditioner = &mut self.around.preconditioner;
+        preconditioner.pressure(normal, pressure, weights);
         if self.made.frictional {
-            preconditioner.all([normal, x, y], [pressure, along_x, along_y], weights);
-        } else {
-            preconditioner.pressure(normal, pressure, weights);
+            preconditioner.shear(([x, y], None), [along_x, along_y], weights);
         }
     }
 

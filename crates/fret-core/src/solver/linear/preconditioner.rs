@@ -16,8 +16,6 @@ use crate::fields::{CellRule, Number, Reals, convert, each_cell, reset};
 use crate::kernel::{Components, PeriodicSymbols, ResponseTable};
 use fret_fft::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol};
 
-mod together;
-
 /// A pair is stiff at the surface when the longest waves of a region meet this many times the compliance times wavenumber that
 /// the shortest ones meet: a thin coating more than about five times stiffer than what lies below.
 const STIFF_ABOVE: f64 = 4.0;
@@ -45,8 +43,6 @@ pub struct Preconditioner {
     /// Where the pair is stiff at the surface, and pressure and shear are solved together.
     edge: Option<EdgeCorrection>,
     shear: Option<Inverse>,
-    /// Pressure and shear together.
-    together: Option<Inverse>,
     /// Whether shear is found from the pressure, too.
     follows_pressure: bool,
     /// Smallest symbol of the tangential response [length/pressure].
@@ -224,7 +220,6 @@ impl Preconditioner {
             normal: product(&[normal], &[0], &NORMAL_BLOCKS)?,
             edge,
             shear,
-            together: None,
             follows_pressure,
             softest,
             shear_axis,
