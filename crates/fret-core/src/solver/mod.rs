@@ -279,13 +279,8 @@ impl<'a> ContactSolver<'a> {
     /// Goes on with another undeformed gap [length], shape of the grid, without what has yielded, which is in the states: the displacements known
     /// so far hold no longer. Tractions, loads and the region of the last increment still do.
     pub fn set_gap(&mut self, undeformed: Array2<f64>) {
-        self.undeformed = undeformed;
-        self.unyielded = None;
-        self.coarse = None;
+        self.move_gap(undeformed);
         self.forget_displacements();
-        let tilt = std::mem::take(&mut self.tilt);
-        self.level = None;
-        self.set_tilt(tilt);
     }
 
     /// Goes on with something between the surfaces that gives in each cell by so much under a unit of pressure [length/pressure], shape of the grid:

@@ -10,14 +10,14 @@ use super::laws::friction::FrictionLaw;
 use super::laws::rigid_motions::CellPositions;
 use super::laws::slip_path::SlipPath;
 use super::linear::preconditioner::CellWaves;
-use super::normal::grid_transfer::{coarser_heights, coarser_response, interpolated};
+use super::normal::grid_transfer::{coarser_heights, coarser_response, interpolated, is_made_coarser};
 use super::operators::{Method, RegionOperators};
 use super::outcome::Work;
 use super::prescribed::TangentialLoads;
 use super::region::Region;
 use super::settings::{IterationCallback, SolveError};
 use super::tractions::Tractions;
-use crate::compliance::{OperatorSet, SharedWorkspace, SurfaceResponse};
+use crate::compliance::{SharedWorkspace, SurfaceResponse};
 use crate::kernel::Components;
 use crate::model::TangentialField;
 
@@ -41,7 +41,8 @@ pub fn nested_start(
 ) -> Result<Tractions, SolveError> {
     let shape = problem.positions.shape();
     let response = (method.response)();
-    if !is_made_coarser(shape, response, method.operators) {
+    let scene = (response.is_periodic(), method.operators.symmetry);
+    if !is_made_coarser(shape, 2 * COARSEST, scene) {
         return Ok(tractions);
     }
     let below = Below { problem, shape, waves: method.waves };
@@ -49,14 +50,6 @@ pub fn nested_start(
     let Some((coarse, work)) = found else { return Ok(tractions) };
     operators.coarse_work += work;
     Ok(below.prolonged(&coarse))
-}
-
-fn is_made_coarser(shape: [usize; 2], response: &SurfaceResponse, operators: OperatorSet) -> bool {
-    let whole = operators.symmetry.whole_of(shape);
-    let halves = |axis: usize| {
-        shape[axis].is_multiple_of(2) || !(response.is_periodic() || operators.symmetry.axes()[axis])
-    };
-    (0..2).all(|axis| whole[axis] >= 2 * COARSEST && halves(axis))
 }
 
 /// A problem that is solved on the grids below its own.
@@ -91,7 +84,8 @@ impl Below<'_> {
         let mut tractions =
             Tractions { pressure: self.means(&start.pressure), shear: self.mean_vectors(&start.shear) };
         let mut work = Work::default();
-        if is_made_coarser(shape, &response, method.operators) {
+        let scene = (response.is_periodic(), method.operators.symmetry);
+        if is_made_coarser(shape, 2 * COARSEST, scene) {
             let below = Below { problem: &coarse, shape, waves };
             if let Some((found, work_below)) = below.solution(&tractions, &response, method, callback)? {
                 work += work_below;

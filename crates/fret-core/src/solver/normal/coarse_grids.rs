@@ -10,7 +10,7 @@ use super::super::outcome::Work;
 use super::super::prescribed::NormalLoad;
 use super::super::region::Region;
 use super::super::settings::{IterationCallback, SolveError, SolverSettings};
-use super::grid_transfer::{coarser_heights, coarser_response, prolonged};
+use super::grid_transfer::{coarser_heights, coarser_response, is_made_coarser, prolonged};
 use super::{NormalEquations, first_pressure, solve_normal};
 use crate::compliance::{OperatorSet, SharedWorkspace, SurfaceCompliance, SurfaceResponse};
 use crate::kernel::{Components, ResponseTable};
@@ -61,10 +61,7 @@ impl CoarseGrids {
                 });
             let (nx, ny) = undeformed.dim();
             let cells = symmetry.whole_of([nx, ny]);
-            let periodic = response.is_periodic();
-            let halves =
-                |axis: usize| !(periodic || symmetry.axes()[axis]) || [nx, ny][axis].is_multiple_of(2);
-            if cells[0].min(cells[1]) < COARSEST || !(halves(0) && halves(1)) {
+            if !is_made_coarser([nx, ny], COARSEST, (response.is_periodic(), symmetry)) {
                 break;
             }
             let level = Level {

@@ -8,6 +8,7 @@ use super::super::contact_edge::level_function;
 use super::super::region::Region;
 use crate::compliance::SurfaceResponse;
 use crate::kernel::{Components, InfluenceCoefficients, PeriodicSymbols};
+use crate::model::Symmetry;
 
 /// Pressure on a grid twice as fine, of `cells`, from that of a region with its gap; scaled to a `total` where the force is prescribed.
 /// The edge is moved out by `shift` of a fine cell. `None` where there is no contact.
@@ -78,6 +79,15 @@ pub fn interpolated(coarse: &Array2<f64>, fine: [usize; 2]) -> Array2<f64> {
         }
     }
     result
+}
+
+/// Whether a grid of a `shape` in front of its mirrors has one twice as coarse: with so many cells along each axis at the least, even in number where they
+/// repeat or are mirrored.
+pub fn is_made_coarser(shape: [usize; 2], least: usize, (is_periodic, symmetry): (bool, Symmetry)) -> bool {
+    let (whole, mirrored) = (symmetry.whole_of(shape), symmetry.axes());
+    (0..2).all(|axis| {
+        whole[axis] >= least && (shape[axis].is_multiple_of(2) || !(is_periodic || mirrored[axis]))
+    })
 }
 
 /// Means of two by two cells; a cell more than half outside counts what is inside.
