@@ -6,7 +6,7 @@ use ndarray::Array2;
 
 use super::influence::Influence;
 use super::measure::{Raise, dot, hypot, largest, over, size};
-use super::slip_path::{CellPath, Past};
+use super::slip_path::{CellPath, Pace, Past};
 use super::{Before, Certificate};
 
 /// The rule by which friction dissipates in a cell, per area: the mean of the friction bounds `[before, after]` the increment times the way.
@@ -65,7 +65,7 @@ pub(super) struct Increment<'a> {
     pub(super) displacements: &'a [Array2<f64>; 3],
     /// What went before, and the length of this increment over the last and the same of the normal load, where slip is integrated to second
     /// order.
-    pub(super) past: Option<(&'a Past, (f64, Option<f64>, bool))>,
+    pub(super) past: Option<(&'a Past, Pace)>,
     /// What went before is known.
     pub(super) is_known: bool,
     /// Strain of the lower surface less that of the upper one.
@@ -143,7 +143,7 @@ impl Increment<'_> {
             if zone == Zone::Slip {
                 certificate.on_circle.raise(over((bound - length).max(0.0), most));
             }
-            let path = self.past.map_or(CellPath::STRAIGHT, |(past, ratios)| past.path(at, ratios));
+            let path = self.past.map_or(CellPath::STRAIGHT, |(past, pace)| past.path(at, pace));
             if zone == Zone::Stick && certificate.whole && path.counted([0.0; 2], zone) == [0.0; 2] {
                 // Exactly: nothing is added to the slip of a cell that does not slip.
                 certificate.slip.raise(if kept == [0.0; 2] { 0.0 } else { 1.0 });
@@ -264,7 +264,7 @@ impl Increment<'_> {
             let at = [i, j];
             let change = self.slip_increment(at);
             let entered = self.zone_before.is_some_and(|zone| zone[at] == Zone::Open) && p > 0.0;
-            let path = self.past.filter(|_| entered).map(|(past, ratios)| past.path(at, ratios));
+            let path = self.past.filter(|_| entered).map(|(past, pace)| past.path(at, pace));
             let found = path.map_or(change, |path| path.rate(change));
             (0..2).for_each(|axis| drift[axis][at] = found[axis]);
         }

@@ -166,7 +166,7 @@ impl<'a> Certifier<'a> {
         let ratio = self.past.ratio_to(&load).filter(|_| {
             case.integration == Integration::SecondOrder && record.work.end_point_increments == 0
         });
-        let edge_ratio = ratio.and_then(|ratio| self.past.edge_ratio(&load, ratio));
+        let pace = ratio.map(|ratio| self.past.pace(&load, ratio));
         let strain = relative_strain(&case.bodies, case.is_line(), record.bulk_stress);
         let increment = Increment {
             grid: &self.plan.grid,
@@ -181,7 +181,7 @@ impl<'a> Certifier<'a> {
             load,
             fields: Fields { p, q, slip, gap, zone },
             displacements: &displacements,
-            past: ratio.map(|ratio| (&self.past, (ratio, edge_ratio, self.past.grows(&load)))),
+            past: pace.map(|pace| (&self.past, pace)),
             is_known: self.whole >= 2 || case.integration == Integration::EndPoint,
             strain,
         };
@@ -209,7 +209,8 @@ impl<'a> Certifier<'a> {
         } else {
             past.loads.push(load);
             let (drift_before, gap_before) = (past.drift[0].take(), past.gap[0].take());
-            past.knew_touch = gap_before.is_some() && past.gap[1].is_some() && edge_ratio.is_some();
+            past.knew_touch =
+                gap_before.is_some() && past.gap[1].is_some() && pace.is_some_and(|pace| pace.edge.is_some());
             past.drift = [Some(drift), drift_before.filter(|_| ratio.is_some())];
             past.gap = [Some(gap.clone()), gap_before.filter(|_| ratio.is_some())];
             past.pressure = Some(before.pressure.clone());

@@ -76,6 +76,17 @@ impl CellPath {
     }
 }
 
+/// How an increment goes on from the last.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pace {
+    /// Its length over that of the last.
+    ratio: f64,
+    /// The same of the normal load, by which the edge of contact moves; `None` where that turns.
+    pub(super) edge: Option<f64>,
+    /// Whether the normal load grows.
+    grows: bool,
+}
+
 impl Past {
     /// Length of an increment to `load` over that of the last, where it goes on in the direction of the last: increments of the four
     /// loads, with an angle below 60 degrees between them; 3 at the most.
@@ -126,28 +137,23 @@ impl Past {
             .then(|| f64::min(f64::sqrt(new_square / old_square), 3.0))
     }
 
-    /// The ratio of the last two changes of the normal load, by which the edge of contact is taken to move: nothing where it turns.
-    pub(super) fn edge_ratio(&self, load: &LoadStep, ratio: f64) -> Option<f64> {
-        let [.., first, second] = self.loads[..] else { return None };
-        let [old, new] =
-            [[first, second], [second, *load]].map(|[from, to]| to.normal.value() - from.normal.value());
-        if old == 0.0 && new == 0.0 {
-            return Some(ratio);
-        }
-        (old * new > 0.0).then(|| f64::min(new / old, 3.0))
+    /// The pace of an increment `ratio` times as long as the last: the edge of contact is taken to move by the ratio of the last two changes of
+    /// the normal load, and nothing is known where that turns.
+    pub(super) fn pace(&self, load: &LoadStep, ratio: f64) -> Pace {
+        let change = |from: &LoadStep, to: &LoadStep| to.normal.value() - from.normal.value();
+        let (old, new) = match self.loads[..] {
+            [.., first, second] => (change(&first, &second), change(&second, load)),
+            _ => (0.0, 0.0),
+        };
+        let edge = match old * new {
+            product if product > 0.0 => Some(f64::min(new / old, 3.0)),
+            _ => (old == 0.0 && new == 0.0).then_some(ratio),
+        };
+        Pace { ratio, edge, grows: new > 0.0 }
     }
 
-    /// Whether the normal load grows in an increment.
-    pub(super) fn grows(&self, load: &LoadStep) -> bool {
-        self.loads.last().is_some_and(|last| load.normal.value() > last.normal.value())
-    }
-
-    /// The rule of a cell in an increment `ratio` times as long as the last, in which the normal load changes by `edge_ratio` times as much, and `grows`.
-    pub(super) fn path(
-        &self,
-        at: [usize; 2],
-        (ratio, edge_ratio, grows): (f64, Option<f64>, bool),
-    ) -> CellPath {
+    /// The rule of a cell.
+    pub(super) fn path(&self, at: [usize; 2], Pace { ratio, edge, grows }: Pace) -> CellPath {
         let (Some(drift), Some(zone)) = (&self.drift[0], &self.zone) else { return CellPath::STRAIGHT };
         let last = [drift[0][at], drift[1][at]];
         match zone[at] {
@@ -192,7 +198,7 @@ impl Past {
             }
             Zone::Open => {
                 let open = CellPath { is_open: true, ..CellPath::STRAIGHT };
-                let ([Some(gap), Some(gap_before)], Some(by_edge)) = (&self.gap, edge_ratio) else {
+                let ([Some(gap), Some(gap_before)], Some(by_edge)) = (&self.gap, edge) else {
                     return open;
                 };
                 if gap_before[at] <= gap[at] {
