@@ -133,7 +133,6 @@ impl<'a> Certifier<'a> {
     /// # Errors
     /// When pressure, shear, slip, gap or zone was not kept.
     pub fn next(&mut self, record: &StepRecord, fields: &KeptFields) -> Result<Certificate, String> {
-        let missing = || format!("increment {}: a field was not kept", record.increment);
         let KeptFields {
             pressure: Some(p),
             shear: Some(q),
@@ -144,7 +143,7 @@ impl<'a> Certifier<'a> {
             ..
         } = fields
         else {
-            return Err(missing());
+            return Err(format!("increment {}: a field was not kept", record.increment));
         };
         let load = self.prescribed(record);
         let case = &self.plan.case;
@@ -163,9 +162,9 @@ impl<'a> Certifier<'a> {
             self.past.loads.drain(..last);
         }
         let displacements = self.influence.displacements(p, q);
-        let ratio = self.past.ratio_to(&load).filter(|_| {
-            case.integration == Integration::SecondOrder && record.work.end_point_increments == 0
-        });
+        let of_second_order =
+            case.integration == Integration::SecondOrder && record.work.end_point_increments == 0;
+        let ratio = self.past.ratio_to(&load).filter(|_| of_second_order);
         let pace = ratio.map(|ratio| self.past.pace(&load, ratio));
         let strain = relative_strain(&case.bodies, case.is_line(), record.bulk_stress);
         let increment = Increment {
@@ -209,8 +208,8 @@ impl<'a> Certifier<'a> {
         } else {
             past.loads.push(load);
             let (drift_before, gap_before) = (past.drift[0].take(), past.gap[0].take());
-            past.knew_touch =
-                gap_before.is_some() && past.gap[1].is_some() && pace.is_some_and(|pace| pace.edge.is_some());
+            let goes_on = pace.is_some_and(|pace| pace.edge.is_some());
+            past.knew_touch = goes_on && gap_before.is_some() && past.gap[1].is_some();
             past.drift = [Some(drift), drift_before.filter(|_| ratio.is_some())];
             past.gap = [Some(gap.clone()), gap_before.filter(|_| ratio.is_some())];
             past.pressure = Some(before.pressure.clone());
@@ -233,8 +232,8 @@ impl<'a> Certifier<'a> {
         before.normal = normal;
         before.energy = record.dissipated_energy;
         before.held = load;
-        let [x, y] = record.tangential_force;
-        before.reached = [record.normal_force, x, y, record.twist_moment];
+        let [force_x, force_y] = record.tangential_force;
+        before.reached = [record.normal_force, force_x, force_y, record.twist_moment];
         Ok(certificate)
     }
 
