@@ -105,7 +105,7 @@ fn every_warning_is_explained() {
     let bench = Bench::new("explained");
     let all: Value = serde_json::from_str(&bench.fret(&["explain", "--json"]).out).unwrap();
     let all = all["warnings"].as_array().unwrap();
-    assert_eq!(all.len(), 15);
+    assert_eq!(all.len(), 17);
     let page =
         std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/reference/messages.md"))
             .unwrap();
