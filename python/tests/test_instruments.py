@@ -202,6 +202,8 @@ def test_files_of_others_are_solved_with_the_heights_of_the_other_reader(
         pytest.skip("needs a checkout of the repository")
     (tmp_path / name).write_bytes((GOLDEN / name).read_bytes())
     heights, places = scan_of_the_other_reader(GOLDEN / name)
+    # the head of this column says microns, which the other reader does not read
+    places = [1e-3 * at for at in places] if name == "csv-1.csv" else places
     keys, rounding = FILES[name]
     # the middle eight tenths of the scan, on 16 cells along each axis
     borders = [0.5 * (at[0] + at[-1]) + 0.8 * (at[-1] - at[0]) * (np.arange(17) / 16 - 0.5) for at in places]
