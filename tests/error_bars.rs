@@ -325,8 +325,8 @@ fn a_study_of_steady_rolling_judges_what_is_steady() {
     assert!(off[2] < 0.5 * off[0] && off[2] < 0.02, "{off:?}");
 }
 
-/// A steady state before the end is judged like one at the end: by Carter's creepage and friction. Shift and energy, which go on from the roll of a cell, are
-/// not.
+/// A steady state before the end is judged like one at the end: by Carter's creepage and friction. Shift and energy, which go on from the roll of a
+/// cell, are not.
 #[test]
 fn a_study_judges_a_steady_state_in_the_middle_of_a_history() {
     let text = rolling_cylinders(128, 0.5) + "[[load]]\ntangential_force = [0.0, 0.0]\nincrements = 2\n";
@@ -350,8 +350,8 @@ fn a_study_judges_a_steady_state_in_the_middle_of_a_history() {
     }
 }
 
-/// Half the cells leave one open beside a contact that has two: the coarse solution does not roll on, and the other stages keep their bars, which hold Hertz'
-/// approach of the press.
+/// Half the cells leave one open beside a contact that has two: the coarse solution does not roll on, and the other stages keep their bars, which
+/// hold Hertz' approach of the press.
 #[test]
 fn stages_that_the_coarse_solution_reaches_keep_their_bars() {
     let text = rolling_cylinders(46, 0.5).replace("size = 3.2", &format!("size = {:?}", 46.0 * 2.0 / 41.0));

@@ -209,8 +209,8 @@ fn nearly_full(ratio: f64, pressed: f64) -> Ended {
     run_certified(&text, &[]).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// In a strip of a period edges are straight and far apart: what serves a stiff pair on squares takes ten times as long there. Without it 406 applications
-/// of 4 rows of 512 cells and 1135 of 2048 (the bounds leave a fifth for other ways of rounding).
+/// In a strip of a period edges are straight and far apart: what serves a stiff pair on squares takes four times as long there. Without it 406
+/// applications of 4 rows of 512 cells and 1135 of 2048 (the bounds leave a fifth for other ways of rounding).
 #[test]
 fn a_stiff_strip_of_a_period_takes_no_more_than_it_did() {
     for (cells, most) in [(512, 490), (2048, 1360)] {

@@ -156,8 +156,12 @@ fn pauses_change_nothing() {
     }
 }
 
+/// Seed and number (energy, shift, shear) of the one that is more than twice as far as by end points, whose error changes its sign there: 2.2 times.
+const TWICE: (u64, usize) = (7, 0);
+
 /// A dozen histories in 24 increments a cycle beside references of 480, which both rules find alike: half of the energies are off by less than half
-/// of what end points leave, half of the shifts by less than 0.8 of it, and no number is twice as far and above 0.2 %. Over 160 histories the
+/// of what end points leave, half of the shifts by less than 0.8 of it, and no number but one is twice as far and above 0.2 % (of those of 198
+/// histories one in sixty is). Over 198 histories the
 /// medians are as on the page; the shear of lines, half of the shears here, gains little.
 #[test]
 fn random_histories_are_nearer_than_by_end_points() {
@@ -176,16 +180,16 @@ fn random_histories_are_nearer_than_by_end_points() {
             (seed, errors[0], errors[1])
         })
         .collect();
-    let (mut ratios, mut twice) = ([const { Vec::new() }; 3], 0);
+    let mut ratios = [const { Vec::new() }; 3];
     for (seed, errors, ends) in &found {
         println!("{seed}: {errors:.5?}, by end points {ends:.5?}");
         for quantity in 0..3 {
             let [error, end] = [errors[quantity].abs(), ends[quantity].abs()];
-            twice += usize::from(error > (2.0 * end).max(2e-3));
+            let bound = if (*seed, quantity) == TWICE { 2.5 } else { 2.0 };
+            assert!(error <= (bound * end).max(2e-3), "{seed}: {error:e}, by end points {end:e}");
             ratios[quantity].push(error / end);
         }
     }
-    assert!(twice <= 1, "{twice}");
     for (ratios, bound) in ratios[..2].iter_mut().zip([0.5, 0.8]) {
         ratios.sort_by(f64::total_cmp);
         let median = 0.5 * (ratios[5] + ratios[6]);

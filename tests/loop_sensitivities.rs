@@ -1,48 +1,26 @@
 //! Exact sensitivities of what is read from the loop of a cycle, against differences of whole runs and closed forms.
 
-use fret_core::history::{CYCLE_COLUMNS, CycleRecord, Value};
+use fret_core::history::CYCLE_COLUMNS;
 use fret_core::run::{Silent, Simulation};
 use fret_core::sensitivity::{Direction, SensitivityError};
 
-use crate::sensitivities::{Written, found, found_along};
-
-fn value_of(record: &CycleRecord, column: &str) -> f64 {
-    match CYCLE_COLUMNS.iter().find(|known| known.name == column).unwrap().value {
-        Value::Real(value) => value(record),
-        Value::RealOrNone(value) => value(record).unwrap(),
-        _ => panic!("{column} is no number"),
-    }
-}
+use crate::sensitivities::{Written, by_numbers, found, found_along};
 
 /// Largest difference of derivatives of columns of a cycle from central differences of runs, over value and derivative; both ways agree to 1e-9.
 fn worst(written: &Written<'_>, cycle: usize, columns: &[&str]) -> f64 {
-    const STEP: f64 = 1e-5;
-    let records = |moved| {
+    let results = |moved| {
         let history = Simulation::new(&written.plan(moved)).run(&mut Silent).unwrap();
-        history.cycles[cycle].clone()
+        let of = |name: &&str| {
+            let column = CYCLE_COLUMNS.iter().find(|column| column.name == *name).unwrap();
+            column.number(&history.cycles[cycle]).unwrap()
+        };
+        columns.iter().map(of).collect()
     };
-    let names: Vec<String> = columns.iter().map(|column| format!("cycles[{cycle}].{column}")).collect();
-    let of: Vec<&str> = names.iter().map(String::as_str).collect();
-    let by: Vec<&str> = written.numbers.iter().map(|(_, _, path)| *path).collect();
+    let of: Vec<String> = columns.iter().map(|column| format!("cycles[{cycle}].{column}")).collect();
     let [forward, back] = [Direction::Forward, Direction::Backward]
-        .map(|direction| found_along(&written.plan(None), &of, &by, Some(direction)).unwrap());
+        .map(|direction| found_along(&written.plan(None), &of, &written.paths(), Some(direction)).unwrap());
     assert_eq!(back.direction, Direction::Backward);
-    let mut worst = 0.0_f64;
-    for (number, (name, value, _)) in written.numbers.iter().enumerate() {
-        let [up, down] = [STEP, -STEP].map(|step| records(Some((number, step))));
-        for (place, column) in columns.iter().enumerate() {
-            let [found, other] = [&forward, &back].map(|found| found.gradients[place].by[number] * value);
-            let size = forward.gradients[place].value.abs();
-            let expected = (value_of(&up, column) - value_of(&down, column)) / (2.0 * STEP);
-            let off = (found - expected).abs() / (size + expected.abs());
-            worst = worst.max(off);
-            assert!(
-                (found - other).abs() < 1e-9 * (size + found.abs()),
-                "{column} by {name}: {found:e} {other:e}"
-            );
-        }
-    }
-    worst
+    written.off(1e-5, [&by_numbers(&forward), &by_numbers(&back)], results)
 }
 
 fn body(rest: &str) -> String {

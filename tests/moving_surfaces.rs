@@ -64,8 +64,8 @@ fn moved_by_whole_cells_it_is_the_shifted_problem_to_the_bit() {
     }
 }
 
-/// Neither axis comes first: across by parts of cells, and turned besides, the scene with x and y exchanged has the exchanged answer, to the tolerance
-/// of the solution.
+/// Neither axis comes first: across by parts of cells, and turned besides, the scene with x and y exchanged has the exchanged answer, to the
+/// tolerance of the solution.
 #[test]
 fn a_rough_body_moves_across_as_it_does_with_axes_exchanged() {
     const CELLS: usize = 40;
@@ -118,8 +118,9 @@ fn a_rough_surface_that_slides_is_at_each_place_what_it_is_there() {
     }
 }
 
-/// Less than a hundredth of a cell is no motion: to the bit the answer of surfaces that stay, and the plan says so, with wear as without. A motion by just a
-/// hundredth shows what is left out, and it is said no more: on ripples of 18 cells 0.01 x 2 pi / 18 = 0.35 % of the pressure that these make.
+/// Less than a hundredth of a cell is no motion: to the bit the answer of surfaces that stay, and the plan says so, with wear as without. A motion
+/// by just a hundredth shows what is left out, and it is said no more: on ripples of 18 cells 0.01 x 2 pi / 18 = 0.35 % of the pressure that these
+/// make.
 #[test]
 fn less_than_a_hundredth_of_a_cell_is_no_motion() {
     const CELLS: usize = 40;
@@ -244,8 +245,8 @@ fn a_flat_wears_to_the_envelope_of_the_cylinder() {
     }
 }
 
-/// The largest difference of a scar from the envelope over its depth, and its area or volume over that of the envelope: both within 1 %. They are 0.02 to
-/// 0.1 %; the ends of the stroke, where the body is for a sixteenth of a cycle, come last.
+/// The largest difference of a scar from the envelope over its depth, and its area or volume over that of the envelope: both within 1 %. They are
+/// 0.02 to 0.1 %; the ends of the stroke, where the body is for a sixteenth of a cycle, come last.
 fn assert_is_envelope(worn_by: &str, history: &History, off: f64, size: f64) {
     let [first, last] = [2, history.steps.len() - 1].map(|step| history.steps[step].normal_force);
     let cycles = history.cycles.len();
@@ -358,8 +359,8 @@ fn applications(history: &History, increments: usize) -> Vec<f64> {
 }
 
 /// Increments start from the tractions of the cycle before. Where nothing wears these are the solution, and an increment takes what checks it: the
-/// tractions' own displacement and the gap of the whole grid; a ball in gross slip took 19.5 applications in every cycle. Where a cylinder wears, it took
-/// 18.
+/// tractions' own displacement and the gap of the whole grid; a ball in gross slip took 19.5 applications in every cycle. Where a cylinder wears, it
+/// took 18.
 #[test]
 fn a_cycle_starts_from_the_one_before() {
     let ball = solved(&format!(
@@ -445,9 +446,9 @@ fn who_moves_is_a_matter_of_the_point_of_view() {
     assert!(largest < 1e-6, "{largest:e}");
 }
 
-/// A published test of 2004 (`tests/golden/experiments/README.md`): a steel cylinder of R = 6 mm wears a flat for 18 000 cycles of +-25 um under 18.5 N/mm; nothing is fitted
-/// here. Beside finite elements whose surfaces move (Llavori, `tests/golden/experiments`): depth and half-width at a tenth of the
-/// depth within 1 %, area within 2 % (0.3, 0.3 and 1.3 % are left between two programs, one of which moves a mesh).
+/// A published test of 2004 (`tests/golden/experiments/README.md`): a steel cylinder of R = 6 mm wears a flat for 18 000 cycles of +-25 um under
+/// 18.5 N/mm; nothing is fitted here. Beside finite elements whose surfaces move (Llavori, `tests/golden/experiments`): depth and half-width at a
+/// tenth of the depth within 1 %, area within 2 % (0.3, 0.3 and 1.3 % are left between two programs, one of which moves a mesh).
 #[test]
 fn the_scar_of_mccoll_is_that_of_finite_elements_whose_surfaces_move() {
     let elements: Vec<[f64; 2]> = include_str!("golden/experiments/mccoll_2004/finite_elements.csv")

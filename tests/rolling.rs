@@ -20,8 +20,8 @@ fn cylinders(grid: &str, kinematics: &str, loads: &str) -> String {
     )
 }
 
-/// A grid that goes with the contact holds twice the cells of an increment open beside it: then the answer is that of a wide grid. With less it is not known
-/// what is left behind (2 % of the force were missing beside one open cell, and by two cells each 0.2 % beside three), and that is refused.
+/// A grid that goes with the contact holds twice the cells of an increment open beside it: then the answer is that of a wide grid. With less it is
+/// not known what is left behind (beside one open cell the force of the steady state was 2.4 % too much), and that is refused.
 #[test]
 fn a_grid_that_goes_with_the_contact_holds_what_it_leaves_behind() {
     // The contact has 21 cells.
@@ -299,7 +299,8 @@ fn unlike_rollers_creep_as_contacts_do() {
 
 /// Two like cylinders with like coatings under a creepage so small that all sticks: the linear theory, by a dense matrix of the response along the
 /// surface (O'Sullivan & King's of a bilayer, with the coating's half-space in closed form and the rest by quadrature); force by creepage for
-/// 40 cells over a half-width of 1, coatings half of that (`golden/rolling_coated.py`). Coating over substrate, E1/E2: 1/2, 2, 10 (E2 = 1.82, nu = 0.3).
+/// 40 cells over a half-width of 1, coatings half of that (`golden/rolling_coated.py`). Coating over substrate, E1/E2: 1/2, 2, 10 (E2 = 1.82, nu =
+/// 0.3).
 #[test]
 fn coated_cylinders_roll_as_the_linear_theory_says() {
     for (young, most, expected) in
@@ -525,8 +526,8 @@ fn the_steady_state_is_what_marching_ends_with() {
     }
 }
 
-/// Unlike coated bodies under creepage and spin, rolled to their steady state: radii, cells and creepage along x and y, and the way. Forces, moment, rolling
-/// friction, creepage along x and y, and spin.
+/// Unlike coated bodies under creepage and spin, rolled to their steady state: radii, cells and creepage along x and y, and the way. Forces, moment,
+/// rolling friction, creepage along x and y, and spin.
 fn rolled_on(
     [radii, cells]: [[f64; 2]; 2],
     (direction, creepage, spin): ([f64; 2], [f64; 2], f64),
@@ -682,8 +683,8 @@ fn increments_that_are_whole_cells_but_for_rounding_go_by_whole_cells() {
     }
 }
 
-/// A scar stays where it was worn while the contact rolls away over it: one history from the worn state, and one of a body whose surface was made so. With
-/// the contact nothing would carry the scar along, and that is refused; a state without one goes on there.
+/// A scar stays where it was worn while the contact rolls away over it: one history from the worn state, and one of a body whose surface was made
+/// so. With the contact nothing would carry the scar along, and that is refused; a state without one goes on there.
 #[test]
 fn a_contact_that_starts_worn_rolls_over_its_scar() {
     let case = |frame: &str, profile: &str, loads: &str| {

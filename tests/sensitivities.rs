@@ -2,7 +2,7 @@
 //! `sensitivity_limits.rs`.
 
 use fret_core::case::Case;
-use fret_core::history::{STEP_COLUMNS, StepRecord, Value};
+use fret_core::history::{STEP_COLUMNS, StepRecord};
 use fret_core::plan::Plan;
 use fret_core::run::{Silent, Simulation};
 use fret_core::sensitivity::{Direction, Request, Sensitivities, SensitivityError, gradient};
@@ -15,15 +15,13 @@ pub struct Written<'a> {
     pub numbers: &'a [(&'a str, f64, &'a str)],
 }
 
-fn value_of(record: &StepRecord, column: &str) -> f64 {
-    match STEP_COLUMNS.iter().find(|known| known.name == column).unwrap().value {
-        Value::Real(value) => value(record),
-        _ => panic!("{column} is no number"),
-    }
-}
-
 pub fn planned(text: &str) -> Plan {
     Plan::new(Case::from_toml(text, "case.toml").unwrap_or_else(|error| panic!("{error}\n{text}"))).unwrap()
+}
+
+/// Derivatives of each result by all numbers.
+pub fn by_numbers(found: &Sensitivities) -> Vec<Vec<f64>> {
+    found.gradients.iter().map(|gradient| gradient.by.clone()).collect()
 }
 
 pub fn found(plan: &Plan, of: &[&str], by: &[&str]) -> Result<Sensitivities, SensitivityError> {
@@ -32,12 +30,13 @@ pub fn found(plan: &Plan, of: &[&str], by: &[&str]) -> Result<Sensitivities, Sen
 
 pub fn found_along(
     plan: &Plan,
-    of: &[&str],
+    of: &[impl AsRef<str>],
     by: &[&str],
     direction: Option<Direction>,
 ) -> Result<Sensitivities, SensitivityError> {
-    let owned = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
-    gradient(plan, &Request { of: owned(of), by: owned(by), direction }, &mut Silent)
+    let of = of.iter().map(|name| name.as_ref().to_owned()).collect();
+    let by = by.iter().map(|path| (*path).to_owned()).collect();
+    gradient(plan, &Request { of, by, direction }, &mut Silent)
 }
 
 impl Written<'_> {
@@ -58,8 +57,41 @@ impl Written<'_> {
     fn columns(&self, columns: &[&str], moved: Option<(usize, f64)>) -> Vec<Vec<f64>> {
         let plan = self.plan(moved);
         let history = Simulation::new(&plan).run(&mut Silent).unwrap();
-        let of = |record| columns.iter().map(|column| value_of(record, column)).collect();
+        let columns: Vec<_> = columns
+            .iter()
+            .map(|name| STEP_COLUMNS.iter().find(|column| column.name == *name).unwrap())
+            .collect();
+        let of = |record: &StepRecord| columns.iter().map(|column| column.number(record).unwrap()).collect();
         history.steps.iter().map(of).collect()
+    }
+
+    /// Paths of its numbers.
+    pub fn paths(&self) -> Vec<&str> {
+        self.numbers.iter().map(|(_, _, path)| *path).collect()
+    }
+
+    /// Largest difference of derivatives, each list those of a result by all numbers, from central differences of the results of whole runs in steps
+    /// of a fraction, over result and derivative. Those found both ways agree to 1e-9, which leaves room for the condition of linear equations that
+    /// are solved to 1e-12, increment after increment.
+    pub fn off(
+        &self,
+        step: f64,
+        [one, other]: [&[Vec<f64>]; 2],
+        results: impl Fn(Option<(usize, f64)>) -> Vec<f64>,
+    ) -> f64 {
+        let values = results(None);
+        let mut worst = 0.0_f64;
+        for (number, (name, value, _)) in self.numbers.iter().enumerate() {
+            let [up, down] = [step, -step].map(|step| results(Some((number, step))));
+            for (result, size) in values.iter().map(|value| value.abs()).enumerate() {
+                let expected = (up[result] - down[result]) / (2.0 * step);
+                let [one, other] = [one, other].map(|by| by[result][number] * value);
+                worst = worst.max((one - expected).abs() / (size + expected.abs()));
+                let apart = (one - other).abs();
+                assert!(apart < 1e-9 * (size + one.abs()), "result {result} by {name}: {one:e}, {other:e}");
+            }
+        }
+        worst
     }
 
     /// Largest difference of any derivative in any increment from the central difference of runs, over the largest value of the column and
@@ -82,8 +114,7 @@ impl Written<'_> {
             })
             .collect();
         let of: Vec<&str> = names.iter().map(String::as_str).collect();
-        let by: Vec<&str> = self.numbers.iter().map(|(_, _, path)| *path).collect();
-        let along = |direction| found_along(&plan, &of, &by, Some(direction)).unwrap();
+        let along = |direction| found_along(&plan, &of, &self.paths(), Some(direction)).unwrap();
         let (found, back) = (along(Direction::Forward), along(Direction::Backward));
         assert_eq!(back.direction, backwards);
         let mut worst = 0.0_f64;

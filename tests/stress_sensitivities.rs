@@ -2,10 +2,9 @@
 //! Hertz's contact.
 
 use fret_core::plan::Plan;
-use fret_core::run::Silent;
-use fret_core::sensitivity::{Direction, Request, Sensitivities, gradient};
+use fret_core::sensitivity::Direction;
 
-use crate::sensitivities::{Written, found, planned};
+use crate::sensitivities::{Written, by_numbers, found, found_along, planned};
 
 /// A coated body on a spring under an elastic ball, both forces growing, and a cycle; `<stress>`: what is asked about stresses.
 const COATED: &str = r#"
@@ -50,40 +49,19 @@ const NUMBERS: [(&str, f64, &str); 10] = [
 const MEASURES: [&str; 6] = ["von_mises", "tresca", "tension", "hydrostatic", "interface_shear", "peel"];
 const CONSTANTS: &str = "yield_strength = 0.3\ntorsion_limit = 0.1\ntension_limit = 0.15";
 
-fn along(plan: &Plan, of: &[String], by: &[&str], direction: Direction) -> Sensitivities {
-    let by = by.iter().map(|path| (*path).to_owned()).collect();
-    gradient(plan, &Request { of: of.to_vec(), by, direction: Some(direction) }, &mut Silent).unwrap()
-}
-
 /// Largest difference of the derivatives of numbers by all of [`NUMBERS`] from central differences of whole runs in steps of a fraction, over the
 /// value and the derivative. Both ways agree to 1e-9.
 pub fn worst(text: &str, numbers: &[(&str, f64, &str)], of: &[String], step: f64) -> f64 {
     let written = Written { text, numbers };
-    let by: Vec<&str> = numbers.iter().map(|(_, _, path)| *path).collect();
-    let plan = planned(&written.case(None));
-    let [back, forward] =
-        [Direction::Backward, Direction::Forward].map(|direction| along(&plan, of, &by, direction));
-    let values = |moved| -> Vec<f64> {
-        let plan = planned(&written.case(Some(moved)));
-        let found = along(&plan, of, &[by[by.len() - 1]], Direction::Forward);
+    let plan = written.plan(None);
+    let [back, forward] = [Direction::Backward, Direction::Forward]
+        .map(|direction| found_along(&plan, of, &written.paths(), Some(direction)).unwrap());
+    let results = |moved| -> Vec<f64> {
+        let by = numbers[numbers.len() - 1].2;
+        let found = found_along(&written.plan(moved), of, &[by], Some(Direction::Forward)).unwrap();
         found.gradients.iter().map(|gradient| gradient.value).collect()
     };
-    let mut worst = 0.0_f64;
-    for (number, (name, value, _)) in numbers.iter().enumerate() {
-        let [up, down] = [step, -step].map(|step| values((number, step)));
-        for (place, of) in of.iter().enumerate() {
-            let size = back.gradients[place].value.abs();
-            let expected = (up[place] - down[place]) / (2.0 * step);
-            let [found, other] = [&back, &forward].map(|found| found.gradients[place].by[number] * value);
-            let off = (found - expected).abs() / (size + expected.abs());
-            worst = worst.max(off);
-            assert!(
-                (found - other).abs() < 1e-9 * (size + found.abs()),
-                "{of} by {name}: {found:e}, forward {other:e}"
-            );
-        }
-    }
-    worst
+    written.off(step, [&by_numbers(&back), &by_numbers(&forward)], results)
 }
 
 /// All measures in the middle of the cycle and at its end, at depths that are chosen, the interface among them; of both bodies. Runs leave 1e-6
@@ -195,7 +173,7 @@ fn moduli_and_forces_are_one_dimension_of_stresses() {
     let fatigue = ["crossland", "dang_van", "shakedown_strength", "smith_watson_topper"];
     let fatigue = fatigue.map(|of| format!("fatigue.{of}"));
     let of: Vec<String> = measures.into_iter().chain(fatigue).collect();
-    for gradient in along(&plan, &of, &forces, Direction::Backward).gradients {
+    for gradient in found_along(&plan, &of, &forces, Some(Direction::Backward)).unwrap().gradients {
         let parts = gradient.by.iter().zip(forces.iter().map(|path| value(path)));
         let sum: f64 = parts.map(|(by, value)| by * value).sum();
         let off = (sum / gradient.value - 1.0).abs();
@@ -281,7 +259,7 @@ fn residual_stress_is_a_number_of_stresses_alone() {
         planned(&Written { text: &text, numbers: &numbers }.case(None))
     };
     for (depths, thirds) in [("[0.0, 0.1, 0.2]", [1.0, 1.0, 0.0]), ("[0.5, 0.6]", [0.0, 0.0, 2.0])] {
-        let found = along(&plan_at(depths), &of, &by, Direction::Backward);
+        let found = found_along(&plan_at(depths), &of, &by, Some(Direction::Backward)).unwrap();
         for (by, thirds) in found.gradients[0].by.iter().zip(thirds) {
             assert!((by - thirds / 3.0).abs() < 1e-14, "{depths}: {by}");
         }
@@ -290,8 +268,7 @@ fn residual_stress_is_a_number_of_stresses_alone() {
         assert!(counts.eq(thirds.map(|thirds| thirds != 0.0)), "{:?}", found.gradients[2].by);
     }
     // The table of all numbers has them.
-    let request = Request { of: of.to_vec(), by: Vec::new(), direction: None };
-    let all = gradient(&plan_at("[0.0]"), &request, &mut Silent).unwrap();
+    let all = found_along(&plan_at("[0.0]"), &of, &[], None).unwrap();
     for path in by {
         assert_eq!(all.parameters.iter().filter(|known| known.path() == path).count(), 1, "{path}");
     }

@@ -149,7 +149,7 @@ impl Past {
             product if product > 0.0 => Some(f64::min(new / old, 3.0)),
             _ => (old == 0.0 && new == 0.0).then_some(ratio),
         };
-        Pace { ratio, edge, grows: new > 0.0 }
+        Pace { ratio, edge, grows: new > 1e-9 * load.normal.value().abs() }
     }
 
     /// The rule of a cell.

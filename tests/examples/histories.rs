@@ -3,8 +3,8 @@
 //!
 //! It prints the medians of the errors over those of end points, the numbers that are twice as far as by end points (and how many of them are
 //! twice as far as what end points have in the other two counts, too, in proportion: an error of end points that changes its sign is small once),
-//! those that grow with the increments, and the operator applications. `HISTORIES_LIST=1` lists them all. `HISTORIES_AUTO=0.03` asks instead how far the increments that
-//! the program chooses to this tolerance are from the reference.
+//! those that grow with the increments, and the operator applications. `HISTORIES_LIST=1` lists them all. `HISTORIES_AUTO=0.03` asks instead how far
+//! the increments that the program chooses to this tolerance are from the reference.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "its output is the table")]
 

@@ -33,6 +33,15 @@ pub struct Column<R: 'static> {
 }
 
 impl<R> Column<R> {
+    /// Its value in a record, where it is a real number that this has.
+    pub fn number(&self, record: &R) -> Option<f64> {
+        match self.value {
+            Value::Real(value) => Some(value(record)),
+            Value::RealOrNone(value) | Value::RealOrZero(value) => value(record),
+            _ => None,
+        }
+    }
+
     /// Its unit where all rows are driven so; empty where some rows are driven otherwise (`None`) and it has another unit there.
     pub fn unit_driven(&self, drive: Option<Drive>) -> &'static str {
         match (self.turning, drive) {

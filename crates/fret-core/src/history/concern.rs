@@ -36,12 +36,14 @@ pub const RING_FRACTION: f64 = 1.0 / 16.0;
 /// the very rim alone: between 10 and 64 increments the energy of later cycles changes by at most 0.05 %.
 pub const RING_SHEAR: f64 = 0.2;
 
-/// Distance that a contact slides over a body in one increment, over its length along the way. Wear, and friction that evolves, see it at both ends of the
-/// increment: after one cycle in gross slip the depth of a cell is off by up to 5 % of the largest at an eighth, 7 % at a sixth, 13 % at a quarter, 36 % at
-/// a half, the largest depth by 2, 3, 6, 16 % (trapezoids of Hertz' pressure); later, when the surfaces have worn in, by about half of it.
+/// Distance that a contact slides over a body in one increment, over its length along the way. Wear, and friction that evolves, see it at both ends
+/// of the increment: after one cycle in gross slip the depth of a cell is off by up to 5 % of the largest at an eighth, 7 % at a sixth, 13 % at a
+/// quarter, 36 % at a half, the largest depth by 2, 3, 6, 16 % (trapezoids of Hertz' pressure); later, when the surfaces have worn in, by about half
+/// of it.
 pub const STRIDE: f64 = 1.0 / 6.0;
-/// Distance that it rolls in one increment, in the same way. Of a cylinder that rolls back and forth by six tenths of its contact under half the friction
-/// that it can have, the wear depth of a cell is off by 4 % of the largest at 0.075, by 7 % here and 17 % at a fifth, the energy of a cycle by 0.4, 1.4 and 6 %.
+/// Distance that it rolls in one increment, in the same way. Of a cylinder that rolls back and forth by six tenths of its contact under half the
+/// friction that it can have, the wear depth of a cell is off by 4 % of the largest at 0.075, by 7 % here and 17 % at a fifth, the energy of a cycle
+/// by 0.4, 1.4 and 6 %.
 pub const ROLLED: f64 = 0.1;
 
 /// Change of the friction coefficient of a cell in a single cycle over the mean one. Within a cycle it is constant; a tenth more friction

@@ -22,8 +22,8 @@ pub struct RepeatedFit {
 /// Fits of the first whole cycle of each span of `every` numbers of cycles, from that of the first cycle on.
 ///
 /// # Errors
-/// When the case cannot be planned with the constants of one. A span without a whole cycle, a cycle that is none of such a contact, or whose loop cannot
-/// be solved, says so.
+/// When the case cannot be planned with the constants of one. A span without a whole cycle, a cycle that is none of such a contact, or whose loop
+/// cannot be solved, says so.
 pub fn repeated(
     name: &str,
     measured: &[MeasuredCycle],

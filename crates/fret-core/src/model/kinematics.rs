@@ -99,8 +99,8 @@ impl Motion {
         }
     }
 
-    /// Where the upper surface lies after a shift [length]: cells along each axis, rounded to a hundredth of a cell, and less than one is none. Along a
-    /// line contact nothing moves.
+    /// Where the upper surface lies after a shift [length]: cells along each axis, rounded to a hundredth of a cell, and less than one is none.
+    /// Along a line contact nothing moves.
     pub fn cells(&self, shift: [f64; 2]) -> [f64; 2] {
         let rounded = |axis: usize| {
             let steps = shift[axis] / self.spacing[axis] * STEPS;
@@ -110,7 +110,7 @@ impl Motion {
         self.dimension.along(rounded, 0.0)
     }
 
-    /// A rotation; that which moves no cell by more than a hundredth of one is none, or one by right angles.
+    /// A rotation; that which moves every cell by less than a hundredth of one is none, or one by right angles.
     fn angle(&self, twist: f64) -> f64 {
         let right = FRAC_PI_2 * (twist / FRAC_PI_2).round();
         if (twist - right).abs() * self.rim * STEPS < 1.0 { right } else { twist }

@@ -19,8 +19,19 @@ pub struct Strides {
     spacing: [f64; 2],
     /// Where it was at the end of the increment before [length].
     place: Option<[f64; 2]>,
-    /// The longest stride over the length of the contact, and its stage.
-    longest: Option<(f64, usize)>,
+    /// The longest of all.
+    longest: Option<Stride>,
+}
+
+/// How far a contact goes in an increment.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Stride {
+    /// Over the length of the contact along the way.
+    share: f64,
+    /// Along x and y [cells].
+    cells: [f64; 2],
+    /// Number of its stage, from 0.
+    stage: usize,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -53,14 +64,13 @@ impl Strides {
         };
         let touches = record.contact_cells > 0;
         if let (Some(from), true) = (self.place, touches) {
-            let along = |axis: usize| {
-                let length =
-                    record.footprint.lengths[axis].map_or(f64::INFINITY, |cells| cells * self.spacing[axis]);
-                (place[axis] - from[axis]) / length
-            };
-            let stride = along(0).hypot(along(1)) / record.parts.max(1) as f64;
-            if self.longest.is_none_or(|(longest, _)| stride > longest) {
-                self.longest = Some((stride, record.stage));
+            let parts = record.parts.max(1) as f64;
+            let cells = [0, 1].map(|axis| (place[axis] - from[axis]) / self.spacing[axis] / parts);
+            let along =
+                |axis: usize| record.footprint.lengths[axis].map_or(0.0, |length| cells[axis] / length);
+            let share = along(0).hypot(along(1));
+            if self.longest.is_none_or(|longest| share > longest.share) {
+                self.longest = Some(Stride { share, cells, stage: record.stage });
             }
         }
         self.place = touches.then_some(place);
@@ -72,15 +82,28 @@ impl Strides {
             Way::Slides => Concern::MovingInFewIncrements,
             Way::Rolls => Concern::RollingInFewIncrements,
         };
-        let (longest, stage) = self.longest?;
-        let stage = plan.case.stages.get(stage)?;
-        let warning = Warning::of(concern, longest * (1.0 - ROUNDING), Some(stage.name.clone()))?;
-        let enough = (stage.increments_by_key() as f64 * warning.value / warning.bound).ceil();
-        let help = if self.way == Some(Way::Rolls) && plan.case.kinematics.frame == Frame::Contact {
-            format!("increments = {enough} in that stage; where these are no whole cells, more of them")
-        } else {
-            format!("increments = {enough} in that stage")
+        let longest = self.longest?;
+        let stage = plan.case.stages.get(longest.stage)?;
+        let warning = Warning::of(concern, longest.share * (1.0 - ROUNDING), Some(stage.name.clone()))?;
+        let over = warning.value / warning.bound;
+        let steps = stage.increments_by_key();
+        let enough = |steps: usize| (steps as f64 * over).ceil() as usize;
+        let enough = match self.way? {
+            // A steady state goes on by one cell.
+            Way::Rolls if stage.steady => None,
+            Way::Rolls if plan.case.kinematics.frame == Frame::Contact => {
+                let way = longest.cells.map(|cells| (cells.abs() * steps as f64).round() as usize);
+                let whole = |into: &usize| way.iter().all(|cells| cells.is_multiple_of(*into));
+                (enough(steps)..=way[0].max(way[1])).find(whole)
+            }
+            // A cycle goes its quarters in whole increments.
+            _ if stage.cycles().is_some() => Some(4 * enough((steps / 4).max(1))),
+            _ => Some(enough(steps)),
         };
+        let help = enough.map_or_else(
+            || "a grid of finer cells".to_owned(),
+            |enough| format!("increments = {enough} in that stage"),
+        );
         Some(Warning { help, ..warning })
     }
 }

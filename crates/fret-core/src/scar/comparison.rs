@@ -183,7 +183,7 @@ mod tests {
     }
 
     /// A parabola of known depth and width in a rough surface: the deepest point is deeper by two or three times the roughness, means over n points
-    /// are off by about the n-th root of it squared. 12 % too deep was told of 5 % of roughness.
+    /// are off by it over the root of n. 12 % too deep was told of 5 % of roughness.
     #[test]
     fn depth_and_width_of_a_rough_scar_are_those_of_the_scar() {
         let x = cells();

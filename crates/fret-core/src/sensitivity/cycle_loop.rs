@@ -7,7 +7,7 @@ use super::row::{Column, Composed};
 use super::scene::Scene;
 use super::snapshot::Snapshot;
 use crate::fields::{Scalar, Slopes};
-use crate::history::{CYCLE_COLUMNS, CycleRecord, Value};
+use crate::history::{CYCLE_COLUMNS, CycleRecord};
 use crate::model::ContactState;
 use crate::run::{CycleReading, Point, last_to_slide};
 
@@ -101,7 +101,7 @@ pub(super) fn of_loop(
             for axis in 0..2 {
                 let mut weights = vec![0.0; scene.region.len()];
                 weights[cell] = slip[axis] / way;
-                let column = Column::Field(RegionWeights { field: SLIP + axis, weights });
+                let column = Column::Field(RegionWeights { field: SLIP + axis, weights: weights.into() });
                 columns.push((at, column, by[SLID]));
             }
         }
@@ -155,11 +155,7 @@ impl CycleLoop {
 
 /// Value of a column in the record of a cycle.
 fn value_of(cycle: &CycleRecord, column: &str) -> Option<f64> {
-    match CYCLE_COLUMNS.iter().find(|known| known.name == column)?.value {
-        Value::Real(value) => Some(value(cycle)),
-        Value::RealOrNone(value) => value(cycle),
-        _ => None,
-    }
+    CYCLE_COLUMNS.iter().find(|known| known.name == column)?.number(cycle)
 }
 
 /// What a point is made of, without its slip.

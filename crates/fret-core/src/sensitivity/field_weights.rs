@@ -1,6 +1,7 @@
 //! Fields as results: the sum over the cells of the grid of a field, tractions, slip or wear depth, each times its weight.
 
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
 use ndarray::Array2;
 
@@ -33,7 +34,8 @@ pub(super) struct FieldWeights {
 #[derive(Debug, Clone)]
 pub(super) struct RegionWeights {
     pub field: usize,
-    pub weights: Vec<f64>,
+    /// Shared by the increments that it is the sum of.
+    pub weights: Arc<[f64]>,
 }
 
 impl FieldWeights {
@@ -90,9 +92,12 @@ impl FieldWeights {
     pub fn value(&self, step: &Snapshot) -> f64 {
         let state = step.state();
         let ([x, y], [slip_x, slip_y]) = (&state.shear, &state.slip);
-        let worn = step.worn.as_deref().unwrap_or(&state.pressure);
-        let field = [&state.pressure, x, y, slip_x, slip_y, worn][self.field];
-        self.weights.iter().zip(field).map(|(weight, value)| weight * value).sum()
+        let fields =
+            [Some(&state.pressure), Some(x), Some(y), Some(slip_x), Some(slip_y), step.worn.as_deref()];
+        let sum =
+            |field: &Array2<f64>| self.weights.iter().zip(field).map(|(weight, value)| weight * value).sum();
+        // Where nothing wears nothing is worn.
+        fields[self.field].map_or(0.0, sum)
     }
 
     /// Increments whose columns make the sum in one: of slip, which is accumulated, all up to it.
@@ -108,7 +113,7 @@ impl FieldWeights {
     /// The weights in the region of a history: tractions are none beyond it.
     pub fn in_region(&self, scene: &Scene<'_>) -> RegionWeights {
         let (weights, _) = field(scene.region, &self.weights).into_raw_vec_and_offset();
-        RegionWeights { field: self.field, weights }
+        RegionWeights { field: self.field, weights: weights.into() }
     }
 }
 

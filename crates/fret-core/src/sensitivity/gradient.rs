@@ -277,6 +277,9 @@ impl Sum<'_> {
         let (of, aside) = (self.of.clone(), vec![0.0; parameters.len()]);
         let mut found = Target { of, value: 0.0, columns: Vec::new(), aside };
         for (name, weight) in &self.parts {
+            let none = |reason: &'static str| {
+                move || SensitivityError::Objective { name: (*name).clone(), reason: reason.to_owned() }
+            };
             let objective = Objective::new(name)?;
             if objective.is_below()
                 && let Some(below) = below.next()
@@ -285,10 +288,7 @@ impl Sum<'_> {
                 continue;
             }
             if let Some((cycle, column)) = objective.of_loop(name, cycles)? {
-                let none = || SensitivityError::Objective {
-                    name: (*name).clone(),
-                    reason: "this cycle has none: nothing in it moves, or no machine gives".to_owned(),
-                };
+                let none = none("this cycle has none: nothing in it moves, or no machine gives");
                 let number = of_loop(scene, (steps, cycle), column, parameters).ok_or_else(none)?;
                 found.add(*weight, number);
                 continue;
@@ -296,7 +296,8 @@ impl Sum<'_> {
             let column = objective.column_of_increments();
             for (increment, sign) in objective.needs(name, (steps.len(), cycles))? {
                 let Some(increment) = increment else { continue };
-                found.value += sign * weight * value_of(&steps[increment].record, column);
+                let value = value_of(&steps[increment].record, column);
+                found.value += sign * weight * value.ok_or_else(none("this increment has none"))?;
                 found.columns.push((increment, Column::Named(column), sign * weight));
             }
         }

@@ -135,8 +135,8 @@ pub(super) fn check_request(
 /// Results that change their sign in a mirror: of bodies whose pressure and shear begin to act on each other they do not stay to first order.
 const ODD: [&str; 6] = ["twist", "twist_moment", "tilt_x", "tilt_y", "tilt_moment_x", "tilt_moment_y"];
 
-/// Whether the gap, without a tilt, a twist, bulk stresses or a map, is the same after half a turn: what pressure and shear then do to each other cancels to
-/// first order.
+/// Whether the gap, without a tilt, a twist, bulk stresses or a map, is the same after half a turn: what pressure and shear then do to each other
+/// cancels to first order.
 fn is_point_symmetric(plan: &Plan) -> bool {
     let case = &plan.case;
     let gap = case.profile.gap(&plan.grid);

@@ -4,15 +4,11 @@ use super::change::{Change, DISSIPATED, EXTERNAL, OF_BULK, OF_WEAR, STORED, UNRE
 use super::field_weights::{RegionWeights, SLIP, WORN};
 use super::solved::Solved;
 use crate::fields::{add_scaled, dot, length, sum};
-use crate::history::{STEP_COLUMNS, StepRecord, Value};
+use crate::history::{STEP_COLUMNS, StepRecord};
 
-/// Value of a column in a record.
-pub(super) fn value_of(record: &StepRecord, column: &str) -> f64 {
-    let found = STEP_COLUMNS.iter().find(|known| known.name == column);
-    match found.map(|column| &column.value) {
-        Some(Value::Real(value)) => value(record),
-        _ => f64::NAN,
-    }
+/// Value of a column in a record; `None` where it has none.
+pub(super) fn value_of(record: &StepRecord, column: &str) -> Option<f64> {
+    STEP_COLUMNS.iter().find(|known| known.name == column)?.number(record)
 }
 
 /// What derivatives are taken of in an increment.

@@ -89,7 +89,7 @@ pub fn solve(
     Ok(Solved { tractions, displacements, drift, solution, yielded: Vec::new() })
 }
 
-/// What sweeps of pressure and shear in turn found, the last resort; `None` where they do not converge.
+/// What sweeps of pressure and shear in turn found, the last of all ways; `None` where they do not converge.
 fn swept(solved: Result<Solution, SolveError>) -> Result<Option<Solution>, SolveError> {
     match solved {
         Err(SolveError::NotConverged { .. }) => Ok(None),

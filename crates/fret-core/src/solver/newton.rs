@@ -46,7 +46,7 @@ pub fn solve(
         (true, false) => LOST_WITHOUT_GAIN_STIFF,
         (true, true) => LOST_WITHOUT_GAIN_IN_STIFF_PERIOD,
     };
-    let has_another_resort = problem.pressure == Pressure::Unknown;
+    let has_another_way = problem.pressure == Pressure::Unknown;
     for iteration in 0..settings.max_newton_iterations {
         let residual = iterate.evaluate();
         if callback(iteration, residual).is_break() {
@@ -61,7 +61,7 @@ pub fn solve(
             return Ok(iterate.solution(iteration));
         }
         let target = forcing.next(residual, settings.tolerance);
-        if has_another_resort && forcing.without_gain >= patience {
+        if has_another_way && forcing.without_gain >= patience {
             return Err(not_converged(iteration, &forcing));
         }
         iterate.find_sets();

@@ -4,6 +4,9 @@ use crate::fields::Scalar;
 use crate::model::controls::{CONTROLS, ControlRow, FREEDOMS, NORMAL, TANGENTIAL};
 use crate::model::{Control, LoadStep};
 
+/// A change of the normal load below this share of it is none: tables of loads are rounded.
+const ROUNDING: f64 = 1e-9;
+
 /// Length of an increment over that of the last one, which it goes on from.
 #[derive(Debug, Clone, Copy)]
 pub struct Pace<R = f64> {
@@ -26,7 +29,8 @@ pub fn pace_of<R: Scalar>([older, newer]: [[R; FREEDOMS]; 2], load: &LoadStep) -
         product if product > 0.0 => Some((now / then).min(R::of(3.0))),
         _ => (then.value() == 0.0 && now.value() == 0.0).then_some(loads),
     };
-    Some(Pace { loads, edge, grows: now.value() > 0.0 })
+    let grows = now.value() > ROUNDING * load.normal.value().abs();
+    Some(Pace { loads, edge, grows })
 }
 
 /// Whether the tangential controls along x and y are of one kind.

@@ -66,10 +66,10 @@ impl IncrementProblem<'_> {
         operators: &mut RegionOperators,
         displacements: &mut Displacements,
     ) {
-        let [pressure, x, y] = tractions;
+        let [_, x, y] = tractions;
         let is_any = |field: &[f64]| field.iter().any(|traction| *traction != 0.0);
         if self.coupling == Coupling::Coupled {
-            if is_any(pressure) {
+            if tractions.into_iter().any(is_any) {
                 operators.compliance.full(tractions, displacements.parts_mut());
             }
         } else if is_any(x) || is_any(y) {

@@ -104,7 +104,8 @@ impl<R: Scalar + Send + Sync> Recent<'_, R> {
     /// The paths in the cells of the region, in an increment of a `pace`; `zones` are those of the whole grid.
     ///
     /// *Stop.* Cells that slipped; see [`STOP`], [`STOP_IN_GROWING`]. Nothing where slip does not fall, the whole of it where it falls to half,
-    /// [`ENTERED`] of it where a cell has just entered, and nothing where the moment of its touch was not known. *Start.* Cells that stuck; see [`BEGUN`].
+    /// [`ENTERED`] of it where a cell has just entered, and nothing where the moment of its touch was not known. *Start.* Cells that stuck; see
+    /// [`BEGUN`].
     /// *Entry.* Open cells; see [`Edge`].
     ///
     /// `was_inside`: where the drift of the last increment is known; `wide` finds it in the whole region, for cells where it is not.

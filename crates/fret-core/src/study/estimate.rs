@@ -41,9 +41,10 @@ const SCATTER_OF_ENERGY: f64 = 4.0;
 const SCATTER_OF_COUPLED_SHIFT: f64 = 1.6;
 /// The same of the volume worn off, in which cells average.
 const SCATTER_OF_WORN_VOLUME: f64 = 2.0;
-/// The same of a steady state of rolling, in a line contact and in one with two axes: there creepage and friction of 28 to 52 cells along it scatter by
-/// up to 3.4 of it, and two runs agree by chance.
+/// The same of a steady state of rolling, in a line contact and in one with two axes: there creepage and friction of 28 to 52 cells along it scatter
+/// by up to 3.4 of it, and two runs agree by chance.
 const SCATTER_OF_ROLLING: f64 = 0.2;
+/// That with two axes.
 const SCATTER_OF_ROLLING_BALLS: f64 = 6.0;
 /// Edge of contact where a body ends: it ends at the border of a cell.
 const END_OF_A_BODY: f64 = 0.5;
@@ -51,7 +52,7 @@ const END_OF_A_BODY: f64 = 0.5;
 const STICK_EDGE: f64 = 0.3;
 /// Share of the difference of two runs: of second order extrapolated; of an unknown one; of what sticks; of the shift and the energy of coupled
 /// contacts with increments of second order; of a pressure that has a cusp in the middle of a small stick zone. Of 54 coupled contacts
-/// three err by 1.5, 1.5 and 2.3 of it in what sticks, two by 2.6 in the energy.
+/// three err by 1.5, 1.5 and 2.3 of it in what sticks, two by 2.6 in the energy, which fall outside.
 const SECOND_ORDER: f64 = 1.0 / 3.0;
 const UNKNOWN_ORDER: f64 = 1.5;
 const STICK: f64 = 1.55;
@@ -62,7 +63,7 @@ const CUSP: f64 = 3.5;
 const ROLLING: f64 = 2.5;
 /// The same of the largest depth worn off, which is that of one cell: of 12 in partial and gross slip one errs by 1.65 of it.
 const WORN_DEPTH: f64 = 2.5;
-/// The same of the volume worn off, in which cells average: of those 12 none errs by more than 0.3 of it.
+/// The same of the volume worn off, in which cells average: of those 12 none errs by more than 0.3 of it; twice that, since they are few.
 const WORN_VOLUME: f64 = 0.75;
 /// Factor on these for increments of first order.
 const END_POINTS: f64 = 2.5;

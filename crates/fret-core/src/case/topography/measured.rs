@@ -70,11 +70,15 @@ impl Question<'_> {
             (None, Some(unit)) => self.in_head(judge, unit)?,
             _ => given.unwrap_or(1.0),
         };
-        let of_places: Option<Vec<&String>> = of_places.iter().map(Option::as_ref).collect();
-        let Some(of_places) = of_places.filter(|places| !places.is_empty()) else {
+        let named: Vec<&String> = of_places.iter().flatten().collect();
+        if named.is_empty() {
             return Some((array, Layout { rows, unit, unit_of_places: unit }));
-        };
-        for (column, place) in of_places.into_iter().enumerate() {
+        }
+        if named.len() < of_places.len() {
+            let why = "the lines above the numbers name the unit of one coordinate and not that of the other";
+            return self.refuse(judge, why, "units of both in these lines, or of none");
+        }
+        for (column, place) in named.into_iter().enumerate() {
             let factor = self.in_head(judge, place)?;
             array.column_mut(column).mapv_inplace(|place| place * factor);
         }

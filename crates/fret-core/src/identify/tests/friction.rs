@@ -162,8 +162,8 @@ fn a_log_tells_friction_from_cycle_to_cycle() {
     }
 }
 
-/// The fit repeated every 200 cycles of a test in partial slip, of which one in a hundred is in the log; its friction falls from 0.66 to 0.5, and one has
-/// lost its middle: each gives its own cycle's constants, as a clean loop gives them (40 cells and the interpolated loop).
+/// The fit repeated every 200 cycles of a test in partial slip, of which one in a hundred is in the log; its friction falls from 0.66 to 0.5, and
+/// one has lost its middle: each gives its own cycle's constants, as a clean loop gives them (40 cells and the interpolated loop).
 #[test]
 fn the_fit_repeated_over_a_test_follows_its_friction() {
     let friction = |cycle: usize| 0.7 - 0.04 * cycle as f64;

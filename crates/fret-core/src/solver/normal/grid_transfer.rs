@@ -81,8 +81,8 @@ pub fn interpolated(coarse: &Array2<f64>, fine: [usize; 2]) -> Array2<f64> {
     result
 }
 
-/// Whether a grid of a `shape` in front of its mirrors has one twice as coarse: with so many cells along each axis at the least, even in number where they
-/// repeat or are mirrored.
+/// Whether a grid of a `shape` in front of its mirrors has one twice as coarse: with so many cells along each axis at the least, even in number
+/// where they repeat or are mirrored.
 pub fn is_made_coarser(shape: [usize; 2], least: usize, (is_periodic, symmetry): (bool, Symmetry)) -> bool {
     let (whole, mirrored) = (symmetry.whole_of(shape), symmetry.axes());
     (0..2).all(|axis| {

@@ -189,8 +189,8 @@ impl CellRule<5, 0, 7> for Products {
     }
 }
 
-/// Pressure after a step, not yet cut to between 0 and the hardness; of inactive cells that of the two to which they have gone or go; the sum of what it is
-/// when it is cut.
+/// Pressure after a step, not yet cut to between 0 and the hardness; of inactive cells that of the two to which they have gone or go; the sum of
+/// what it is when it is cut.
 struct Target {
     step: f64,
     constant: f64,
