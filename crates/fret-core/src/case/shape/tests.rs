@@ -328,6 +328,9 @@ fn texts_have_holes_heads_and_marks() {
             "{words}: {error}"
         );
     }
+    let one = format!("x [mm] y z [um]\n{points}");
+    let error = scanned("fill = \"harmonic\"", one.as_bytes(), None).unwrap_err();
+    assert!(error.contains("the unit of one coordinate and not that of the other"), "{error}");
     let filled = scanned("fill = \"harmonic\"", points.as_bytes(), None).unwrap();
     assert!(filled.profile.heights[0].depths().iter().all(|depth| depth.abs() < 1e-12));
     let lost = points.replacen("0.5 0.5 -9999", "nan 0.5 1", 1);

@@ -71,10 +71,11 @@ impl Question<'_> {
             _ => given.unwrap_or(1.0),
         };
         let named: Vec<&String> = of_places.iter().flatten().collect();
-        if named.is_empty() {
+        let all = named.len() == of_places.len();
+        if named.is_empty() || !all && of_heights.is_none() {
             return Some((array, Layout { rows, unit, unit_of_places: unit }));
         }
-        if named.len() < of_places.len() {
+        if !all {
             let why = "the lines above the numbers name the unit of one coordinate and not that of the other";
             return self.refuse(judge, why, "units of both in these lines, or of none");
         }
