@@ -135,7 +135,14 @@ def design(
     question.check_grid()
     question.begin()
     margins = {"type": "ineq", "fun": question.margins, "jac": question.slopes_of_margins}
+    spent = 0
+
+    def went_on(_: Reals) -> None:
+        nonlocal spent
+        spent += 1
+
     while True:
+        before = spent
         try:
             found = optimize.minimize(
                 question.objective,
@@ -144,8 +151,10 @@ def design(
                 bounds=list(zip(question.low, question.high, strict=True)),
                 constraints=[margins] if question.limits else [],
                 method="SLSQP",
-                options={"ftol": accuracy, "maxiter": most},
+                options={"ftol": accuracy, "maxiter": max(most - before, 1)},
+                callback=went_on,
             )
+            found.nit += before
             return _answer(question, found, optimize.nnls)
         except SignChangedError:
             continue  # once for each limit at most; what was run is known

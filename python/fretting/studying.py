@@ -80,7 +80,7 @@ def study(
         ``"together"``, ``"tolerance"``), ``nx``, ``ny``, ``increments`` (of all stages, as text) and ``tolerance``;
         beside ``quantity``, ``measured_by`` and ``convergence`` (``"observed"``, ``"two_levels"``: they show none,
         ``"not_asymptotic"``: no plausible order, not extrapolated, ``"no_limit"``: the maximum contact pressure at a
-        sharp edge or a tip). The attribute ``choice`` says in words what to choose for 1 %, 0.1 % and
+        sharp edge, a tip or a crease). The attribute ``choice`` says in words what to choose for 1 %, 0.1 % and
         0.01 %.
 
     Raises

@@ -179,7 +179,7 @@ pub struct SensitivityArguments {
 #[derive(Debug, Args)]
 #[command(
     mut_arg("out", |out| out.value_name("DIR").help("Folder for the results [default: results/ and the name of the case]")),
-    mut_arg("verbose", |verbose| verbose.help("Also print a line for every increment, and a paragraph for the methods section of a paper"))
+    mut_arg("verbose", |verbose| verbose.help("Also tell every increment, the files that are written and the time taken, and print a paragraph for the methods section of a paper"))
 )]
 pub struct RunArguments {
     /// The case file (TOML); - reads it from standard input

@@ -19,6 +19,7 @@ use crate::estimate::{Estimate, NoBars};
 pub use crate::failure::Failure;
 pub use crate::identify::Request as IdentifyRequest;
 pub use crate::identify::indentation::IndentationAsked;
+use crate::manner::Manner;
 pub use crate::sweep::kinds::kind_of as kind_of_key;
 use crate::terminal;
 use crate::threads;
@@ -53,8 +54,7 @@ pub fn run_into(
         leave_out: LeaveOut::ALL,
         estimate_error,
         threads,
-        quiet: true,
-        verbose: false,
+        manner: Manner::SILENT,
     };
     run::run_into(wanted, guest)
 }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 
 use fret_core::model::Dimension;
-use fret_core::plan::{Coupling, Plan};
+use fret_core::plan::{Coupling, Plan, PlanRecord};
 use fret_core::run::Observer;
 use fret_core::study::{Bar, Bars, Quantity, StageQuantities, error_bars, resolved, solved_ends};
 use serde::Deserialize;
@@ -68,6 +68,8 @@ pub struct BarRow {
 pub struct BarsRecord {
     auxiliary: Auxiliary,
     stages: Vec<StageBars>,
+    #[serde(default)]
+    without: Vec<WithoutBars>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -84,6 +86,13 @@ struct StageBars {
     _name: String,
     #[serde(flatten)]
     numbers: BTreeMap<String, NumberWithBar>,
+}
+
+/// A stage without bars, and why.
+#[derive(Debug, Deserialize)]
+struct WithoutBars {
+    stage: usize,
+    why: String,
 }
 
 #[derive(Debug, Deserialize)]
@@ -136,7 +145,7 @@ impl Estimate {
         Ok(Self {
             bars,
             without,
-            after_steady: first_after_steady(plan),
+            after_steady: first_after_steady(&plan.case.stages),
             cells: companion.case.cells,
             increments: companion.increments,
             wall_s: coarse.wall_s,
@@ -144,8 +153,8 @@ impl Estimate {
         })
     }
 
-    /// An estimate of a file. Which stages have no bars, and why, is not told there. `rubs`: there is friction to speak of.
-    pub fn read_back(record: &BarsRecord, rubs: bool) -> Self {
+    /// An estimate of a file, of a run of this plan.
+    pub fn read_back(record: &BarsRecord, plan: &PlanRecord) -> Self {
         let bar = |stage: &StageBars, quantity: Quantity| {
             let number = stage.numbers.get(quantity.name())?;
             let value = match number.value {
@@ -163,9 +172,9 @@ impl Estimate {
             cells: record.auxiliary.cells,
             increments: record.auxiliary.increments,
             wall_s: record.auxiliary.wall_s,
-            without: Vec::new(),
-            after_steady: None,
-            rubs,
+            without: record.without.iter().map(|of| (of.stage, of.why.clone())).collect(),
+            after_steady: first_after_steady(&plan.case.stages),
+            rubs: plan.coupling != Coupling::Frictionless,
         }
     }
 
@@ -222,13 +231,21 @@ impl Estimate {
             side_by_side(&mut table, &name, COLUMN, told);
         }
         let _ = write!(table, "{}, {}", self.source(), duration(self.wall_s));
-        for (stage, why) in &self.without {
-            let _ = write!(table, "\nno error bars at the end of {}: {why}", stage_name(*stage));
-        }
-        if let Some(stage) = self.after_steady {
-            let _ = write!(table, "\n{}", of_the_way(&stage_name(stage)));
+        for line in self.lacking(stage_name) {
+            let _ = write!(table, "\n{line}");
         }
         table
+    }
+
+    /// Which stages have no bars, and which numbers, with the reasons: a line a reason.
+    pub fn lacking(&self, stage_name: impl Fn(usize) -> String) -> Vec<String> {
+        let alike = self.without.chunk_by(|(_, one), (_, other)| one == other);
+        let line = |stages: &[(usize, String)]| {
+            let names: Vec<String> = stages.iter().map(|(stage, _)| stage_name(*stage)).collect();
+            format!("no error bars at the end of {}: {}", names.join(", "), stages[0].1)
+        };
+        let after = self.after_steady.map(|stage| of_the_way(&stage_name(stage), "have no error bars"));
+        alike.map(line).chain(after).collect()
     }
 
     /// The same for programs. A bar of null: the number has no limit.

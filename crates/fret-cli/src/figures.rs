@@ -14,6 +14,14 @@ pub fn figure(value: f64) -> String {
     }
 }
 
+/// A number as it was typed: as few digits as say it.
+pub fn typed(value: f64) -> String {
+    // what was typed in degrees or read from a file has digits of rounding
+    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
+    let is_plain = (1e-3..1e5).contains(&value.abs()) || value == 0.0;
+    if is_plain { format!("{rounded}") } else { format!("{rounded:e}") }
+}
+
 /// The word for a number beyond all bounds.
 pub const UNLIMITED: &str = "unlimited";
 

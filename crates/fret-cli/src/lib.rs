@@ -65,8 +65,8 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
     let since = Instant::now();
     let answer = match &arguments.verb {
         // these tell more than an answer, or another kind of one
-        Verb::Sweep(arguments) => return commands::sweep::sweep(arguments, as_json),
-        Verb::Run(arguments) => return commands::run::run(arguments, as_json),
+        Verb::Sweep(arguments) => return commands::sweep::sweep(arguments, as_json, since),
+        Verb::Run(arguments) => return commands::run::run(arguments, as_json, since),
         Verb::Explore(arguments) => return Ok(commands::explore::explore(arguments, as_json)?),
         Verb::Schema => return Ok(commands::schema::schema()?),
         Verb::Completions { shell } => return Ok(commands::shells::completions(*shell)?),

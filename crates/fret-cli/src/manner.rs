@@ -57,7 +57,7 @@ impl Manner {
         Ok(())
     }
 
-    /// Tells of a file of the answer, written by others.
+    /// Tells of a file of the answer, or of its folder, written by others.
     pub fn wrote(&self, path: &Path) {
         self.step(|| format!("written: {}", path.display()));
     }
@@ -70,20 +70,62 @@ impl Manner {
         if as_json || !self.quiet {
             answer.tell(as_json)?;
         }
-        self.step(|| format!("done in {}", duration(since.elapsed().as_secs_f64())));
+        self.done(since);
         Ok(())
+    }
+
+    /// Tells the time taken, where all steps are wanted.
+    pub fn done(&self, since: Instant) {
+        self.step(|| format!("done in {}", duration(since.elapsed().as_secs_f64())));
     }
 }
 
+/// Refuses a file for an answer that is standard output, a folder, or an existing file of another kind, told by its extension.
+///
+/// # Errors
+/// When it is one of them.
+pub fn refuse_other_file(path: &Path, extensions: &[&str]) -> Result<(), Failure> {
+    let is_ours = path
+        .extension()
+        .is_some_and(|extension| extensions.iter().any(|ours| extension.eq_ignore_ascii_case(ours)));
+    let found = if path == Path::new("-") {
+        "standard output, where the answer is written to a file".to_owned()
+    } else if path.is_dir() {
+        "a folder, where the answer is one file".to_owned()
+    } else if path.exists() && !is_ours {
+        format!("a file that is there already and is no .{} file", extensions[0])
+    } else {
+        return Ok(());
+    };
+    let help = "choose another place with --out FILE".to_owned();
+    Err(Failure::Call(format!("{}: {found}", path.display()), help))
+}
+
 /// The folder of an answer about a run: the one that is asked for, which an answer of this kind marks by a file, or one below the results.
+/// `what` names answers of this kind, as in `stresses of a run`.
 ///
 /// # Errors
 /// When it cannot be made, or holds something else.
-pub fn place_of_answer(manner: &Manner, results: &Path, name: &str, mark: &str) -> Result<PathBuf, Failure> {
+pub fn place_of_answer(
+    manner: &Manner,
+    results: &Path,
+    (name, mark, what): (&str, &str, &str),
+) -> Result<PathBuf, Failure> {
     match &manner.out {
-        Some(folder) => Ok(folder_for_answers(folder, &[mark], "answers about a run")?),
+        Some(folder) => Ok(folder_for_answers(folder, &[mark], what)?),
         None => Ok(folder_below(results, Path::new(name))?),
     }
+}
+
+/// What is told of a solved increment; `place` says where in the history it is, and its number is so many digits wide.
+pub fn increment_line(record: &StepRecord, width: usize, place: &str) -> String {
+    format!(
+        "increment {:>width$}{place}  force {}  max pressure {}  residual {:.1e}",
+        record.increment,
+        figure(record.normal_force),
+        figure(record.max_pressure),
+        record.residual.largest()
+    )
 }
 
 /// Stops a run when somebody asks to, and tells every increment where all steps are wanted.
@@ -100,15 +142,7 @@ impl Observer for Steps<'_> {
         _: MirroredState<'_>,
         _: Option<&KeptFields>,
     ) -> ControlFlow<()> {
-        self.0.step(|| {
-            format!(
-                "increment {}  force {}  max pressure {}  residual {:.1e}",
-                record.increment,
-                figure(record.normal_force),
-                figure(record.max_pressure),
-                record.residual.largest()
-            )
-        });
+        self.0.step(|| increment_line(record, 0, ""));
         go_on()
     }
 

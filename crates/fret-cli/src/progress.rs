@@ -8,7 +8,8 @@ use fret_core::history::{CycleRecord, StepRecord};
 use fret_core::run::Iteration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::figures::{duration, figure, shortened};
+use crate::figures::{duration, shortened};
+use crate::manner::{Manner, increment_line};
 use crate::terminal;
 use fret_results::Tally;
 
@@ -45,17 +46,24 @@ enum Face {
 
 impl Progress {
     /// The face that fits: quiet when asked for, live for a terminal, plain otherwise.
-    pub fn new(quiet: bool, title: &str, tally: &Tally) -> Self {
+    pub fn new(manner: &Manner, title: &str, tally: &Tally) -> Self {
         let (increments, passed_before) = (tally.advance.planned(), tally.advance.passed());
-        let face = match (quiet, terminal::is_watched()) {
+        let face = match (manner.quiet, terminal::is_watched()) {
             (true, _) => Face::Quiet,
             (false, true) => Face::Live(live_bar(title, increments)),
             (false, false) => Face::Plain,
         };
         let now = Instant::now();
         let tenths = passed_before * 10 / increments.max(1);
-        let progress =
-            Self { face, increments, passed_before, started: now, last_shown: now, tenths, tells_all: false };
+        let progress = Self {
+            face,
+            increments,
+            passed_before,
+            started: now,
+            last_shown: now,
+            tenths,
+            tells_all: manner.verbose,
+        };
         if let Face::Live(bar) = &progress.face {
             bar.set_position(passed_before as u64);
             bar.reset_eta();
@@ -63,12 +71,6 @@ impl Progress {
             bar.enable_steady_tick(Duration::from_millis(120));
         }
         progress
-    }
-
-    /// The same with a line for every increment, if `all`.
-    #[must_use]
-    pub fn telling_all(self, all: bool) -> Self {
-        Self { tells_all: all, ..self }
     }
 
     /// An iteration was done.
@@ -110,17 +112,9 @@ impl Progress {
         self.tenths = tenths;
         self.last_shown = Instant::now();
         let name = shortened(stage.map_or("", |stage| stage.name.as_str()), TITLE_LETTERS);
-        self.line(&format!(
-            "increment {:>width$}  {name}{}  force {}  max pressure {}  residual {:.1e}  {}, {}",
-            record.increment,
-            if ends_stage { " done" } else { "" },
-            figure(record.normal_force),
-            figure(record.max_pressure),
-            record.residual.largest(),
-            self.counts(tally),
-            self.time(passed),
-            width = self.width(),
-        ));
+        let place = format!("  {name}{}", if ends_stage { " done" } else { "" });
+        let line = increment_line(record, self.width(), &place);
+        self.line(&format!("{line}  {}, {}", self.counts(tally), self.time(passed)));
     }
 
     /// A cycle is over, and counted, with those it stands for.

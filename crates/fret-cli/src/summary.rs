@@ -19,6 +19,7 @@ use crate::figures::{
 };
 use crate::loop_numbers::{loop_numbers, sliding_condition};
 use crate::methods::paragraph;
+use crate::study::words::GROWS;
 use fret_results::Tally;
 use fret_results::commit::COMMIT;
 
@@ -124,8 +125,7 @@ impl Summary<'_> {
             );
         }
         if pressure_is_unbounded(&self.plan.case, self.plan.grid.cells()) {
-            let none = "none: at a sharp edge, a tip or a crease it grows with the number of cells";
-            let _ = writeln!(table, "{:<NAMES$}{none}", "limit of max pressure");
+            let _ = writeln!(table, "{:<NAMES$}none: {GROWS}", "limit of max pressure");
         }
         for (name, value) in [
             ("increments", self.tally.solved.to_string()),

@@ -7,11 +7,13 @@ use crate::arguments::PlannedArguments;
 use crate::commands::plan::{cells, cells_in_contact_radius, expected_contact, left_out, stages, warnings};
 use crate::failure::Failure;
 use crate::figures::counted;
+use crate::manner::refuse_other_file;
 use crate::terminal::Answer;
 use fret_results::{CaseFile, planned_from};
 
 /// Judges a case.
 pub fn check(PlannedArguments { case, from, manner }: &PlannedArguments) -> Result<Answer, Failure> {
+    manner.out.as_deref().map_or(Ok(()), |path| refuse_other_file(path, &["json"]))?;
     let case_file = CaseFile::asked(case)?;
     let plan = planned_from(&case_file, from.as_deref())?;
     let record = json!({

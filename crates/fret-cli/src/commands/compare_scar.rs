@@ -44,7 +44,8 @@ pub fn compare_scar(arguments: &CompareScarArguments) -> Result<Answer, Failure>
     let found = compare(&worn.section(&run, axis), run.grid().spacing()[axis], measured)
         .map_err(|refused| Failure::Call(refused.what, refused.help))?;
     let manner = &arguments.manner;
-    let place = place_of_answer(manner, &arguments.folder, "scar", "scar.json")?;
+    let kind = ("scar", "scar.json", "a comparison of scars");
+    let place = place_of_answer(manner, &arguments.folder, kind)?;
     let answer = BesideMeasured { run: &run, worn: &worn, along: &arguments.along, found: &found };
     let record = answer.record();
     manner.write(&place.join("scar.json"), format!("{record:#}\n").as_bytes())?;

@@ -5,6 +5,7 @@ use serde::Serialize;
 use serde_json::json;
 
 use crate::failure::Failure;
+use crate::figures::figure;
 use crate::terminal::Answer;
 
 /// Where all of them stand in the manual.
@@ -34,7 +35,8 @@ pub fn explain(name: Option<&str>) -> Result<Answer, Failure> {
     let Row { name, quantity, bound, warns_below, consequence, help, .. } = row;
     let side = if warns_below { "at least" } else { "at most" };
     let text = format!(
-        "{name}\n\n  what      {quantity}\n  bound     {side} {bound}\n  meaning   {consequence}\n  to do     {help}\n  manual    {PAGE}"
+        "{name}\n\n  what      {quantity}\n  bound     {side} {}\n  meaning   {consequence}\n  to do     {help}\n  manual    {PAGE}",
+        figure(bound).parse().unwrap_or(bound) // without zeros at the end
     );
     Ok(Answer::new(json!(Explained { row, page: PAGE }), text))
 }

@@ -8,6 +8,7 @@ use crate::arguments::ExportArguments;
 use crate::export::{csv, npz, vtk};
 use crate::failure::Failure;
 use crate::figures::counted;
+use crate::manner::refuse_other_file;
 use crate::terminal::Answer;
 use fret_results::Results;
 
@@ -35,7 +36,14 @@ pub fn export(arguments: &ExportArguments) -> Result<Answer, Failure> {
     let mut files = Vec::new();
     for (name, write) in asked {
         let path = arguments.manner.out.clone().unwrap_or_else(|| arguments.results.join(name));
-        fits(&path, name == NPZ)?;
+        if name == NPZ {
+            refuse_other_file(&path, &["npz"])?;
+        } else if path.exists() && !path.is_dir() {
+            return Err(Failure::Call(
+                format!("{}: a file, where the export is a folder", path.display()),
+                "choose another place with --out DIR".to_owned(),
+            ));
+        }
         files.extend(write(&results, &path)?);
     }
     for file in &files {
@@ -57,22 +65,4 @@ pub fn export(arguments: &ExportArguments) -> Result<Answer, Failure> {
     let rows = counted(results.table.rows(), "increment");
     let unfinished = results.unfinished().map_or(String::new(), |why| format!("\n{why}"));
     Ok(Answer::new(record, format!("{first}{more}: {rows} of history, {steps}{unfinished}")))
-}
-
-/// Refuses a place that holds something an export would not have written.
-fn fits(path: &Path, is_file: bool) -> Result<(), Failure> {
-    let shown = path.display();
-    let refuse = |what: &str| {
-        Err(Failure::Call(format!("{shown}: {what}"), "choose another place with --out PATH".to_owned()))
-    };
-    if is_file && path.is_dir() {
-        return refuse("a folder, where the export is one file");
-    }
-    if is_file && path.exists() && path.extension().is_none_or(|extension| extension != "npz") {
-        return refuse("a file that is there already and is no .npz file");
-    }
-    if !is_file && path.exists() && !path.is_dir() {
-        return refuse("a file, where the export is a folder");
-    }
-    Ok(())
 }

@@ -103,6 +103,9 @@ fn computed(
     manner: &Manner,
 ) -> Result<Option<(HeatRecord, String)>, Failure> {
     let started = Instant::now();
+    let place = || place_of_answer(manner, folder, ("heat", "heat.json", "temperatures of a run"));
+    // What is asked for is refused before the work; the folder below the results is made for an answer alone.
+    let asked = manner.out.is_some().then(place).transpose()?;
     let ([first, last], _) = run.last_cycle();
     memory::check(memory_of_stress(run.grid().len(), last + 1 - first))?;
     let rise = match run.case().conduction.frequency {
@@ -113,7 +116,7 @@ fn computed(
     if rise.is_none() && resistance.is_empty() {
         return Ok(None);
     }
-    let place = place_of_answer(manner, folder, "heat", "heat.json")?;
+    let place = asked.map_or_else(place, Ok)?;
     let rise = match rise {
         Some((frequency, (found, cycle, accounted))) => {
             let path = place.join("temperature.npz");

@@ -12,6 +12,7 @@ use serde_json::json;
 use crate::arguments::PlannedArguments;
 use crate::failure::Failure;
 use crate::figures::{LONGEST_TITLE, counted, duration, figure, shortened};
+use crate::manner::refuse_other_file;
 use crate::summary::warning_line;
 use crate::terminal::Answer;
 use crate::threads;
@@ -36,6 +37,7 @@ struct Record<'a> {
 
 /// Plans a case and tells the plan.
 pub fn plan(PlannedArguments { case, from, manner }: &PlannedArguments) -> Result<Answer, Failure> {
+    manner.out.as_deref().map_or(Ok(()), |path| refuse_other_file(path, &["json"]))?;
     let case_file = CaseFile::asked(case)?;
     let plan = planned_from(&case_file, from.as_deref())?;
     let lacking = memory::check(plan.memory_bytes).err();

@@ -11,8 +11,8 @@ use fret_core::study::companion;
 use super::plan::left_out_in_short;
 use crate::arguments::{LeavingOut, RunArguments};
 use crate::failure::Failure;
+use crate::manner::Manner;
 use crate::summary::warning_line;
-use crate::terminal;
 use crate::threads;
 use fret_results::CaseFile;
 use fret_results::Origin;
@@ -34,10 +34,8 @@ pub struct Wanted {
     pub estimate_error: bool,
     /// Number of threads; all cores without.
     pub threads: Option<u16>,
-    /// Whether nothing but errors is told.
-    pub quiet: bool,
-    /// Whether every increment and the methods are told, too.
-    pub verbose: bool,
+    /// How much is told.
+    pub manner: Manner,
 }
 
 impl Wanted {
@@ -57,14 +55,13 @@ impl Wanted {
             },
             estimate_error: arguments.estimate_error,
             threads: arguments.threads.number,
-            quiet: arguments.manner.quiet,
-            verbose: arguments.manner.verbose,
+            manner: arguments.manner.clone(),
         })
     }
 
     /// Judges everything; writes nothing.
     pub fn prepared(self) -> Result<Preparation, Failure> {
-        let Self { case_file, folder, origin, wish, quiet, verbose, .. } = self;
+        let Self { case_file, folder, origin, wish, manner, .. } = self;
         let folder = resolved_path(&folder);
         let earlier = if origin.is_none() && wish == Wish::Resume { Origin::below(&folder)? } else { None };
         let plan = case_file.planned_leaving_out(
@@ -91,26 +88,13 @@ impl Wanted {
             Standing::Solved(_) => None,
             _ => Some(pool.install(|| memory::claim(needed))?),
         });
-        if !quiet && !matches!(standing, Standing::Solved(_)) {
-            announce(&plan, &folder, &standing);
+        if !matches!(standing, Standing::Solved(_)) {
+            announce(&manner, &plan, &folder, &standing);
             if let Some(Origin { results, increment, .. }) = &origin {
-                terminal::say(&format!(
-                    "starts from {results}, end of increment {increment} (counted from 0)"
-                ));
+                manner.say(&format!("starts from {results}, end of increment {increment} (counted from 0)"));
             }
         }
-        Ok(Preparation {
-            case_file,
-            plan,
-            origin,
-            folder,
-            standing,
-            companion,
-            threads,
-            pool,
-            claim,
-            verbose,
-        })
+        Ok(Preparation { case_file, plan, origin, folder, standing, companion, threads, pool, claim, manner })
     }
 }
 
@@ -128,35 +112,35 @@ pub struct Preparation {
     pub pool: rayon::ThreadPool,
     /// Memory for the run.
     pub claim: Cell<Option<Claim>>,
-    /// Whether every increment and the methods are told.
-    pub verbose: bool,
+    /// How much is told.
+    pub manner: Manner,
 }
 
 fn is_same_folder(one: &Path, other: &Path) -> bool {
     one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
 }
 
-fn announce(plan: &Plan, folder: &Path, standing: &Standing) {
+fn announce(manner: &Manner, plan: &Plan, folder: &Path, standing: &Standing) {
     if !plan.left_out.is_empty() {
-        terminal::say(&left_out_in_short(plan));
+        manner.say(&left_out_in_short(plan));
     }
     for warning in plausibility::of_plan(plan) {
-        terminal::say(&warning_line(&warning));
+        manner.say(&warning_line(&warning));
     }
     let shown = folder.display();
     match standing {
         Standing::Free | Standing::Unfinished | Standing::Solved(_) => {}
         Standing::SameCase => {
-            terminal::say(&format!("{shown}: the earlier results of this case are replaced"));
+            manner.say(&format!("{shown}: the earlier results of this case are replaced"));
             let made_since = ["report.html", "export.npz", "csv", "vtk", "stress"];
             let stays = |name: &&str| {
                 folder.join(name).exists() && !(*name == "stress" && plan.case.stress.is_some())
             };
             let old: Vec<&str> = made_since.into_iter().filter(stays).collect();
             if !old.is_empty() {
-                terminal::say(&format!("{shown}: still of the earlier run: {}", old.join(", ")));
+                manner.say(&format!("{shown}: still of the earlier run: {}", old.join(", ")));
             }
         }
-        Standing::Forced => terminal::say(&format!("{shown}: existing folder used, by --force")),
+        Standing::Forced => manner.say(&format!("{shown}: existing folder used, by --force")),
     }
 }

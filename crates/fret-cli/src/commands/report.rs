@@ -6,6 +6,7 @@ use serde_json::json;
 
 use crate::arguments::ReportArguments;
 use crate::failure::Failure;
+use crate::manner::refuse_other_file;
 use crate::report::{page, study, sweep};
 use crate::sweep::RECORD as SWEEP;
 use crate::terminal::Answer;
@@ -48,17 +49,9 @@ fn page_of(folder: &Path) -> Result<Page, Failure> {
 
 /// Writes the page and tells where it is.
 pub fn report(ReportArguments { results: folder, manner }: &ReportArguments) -> Result<Answer, Failure> {
-    let Page { text, counted: (what, count), unfinished } = page_of(folder)?;
     let path = manner.out.clone().unwrap_or_else(|| folder.join("report.html"));
-    let is_page = path.extension().is_some_and(|extension| extension == "html" || extension == "htm");
-    if path.is_dir() || (path.exists() && !is_page) {
-        let found =
-            if path.is_dir() { "a folder" } else { "a file that is there already and is no .html file" };
-        return Err(Failure::Call(
-            format!("{}: {found}", path.display()),
-            "choose another place for the page with --out FILE".to_owned(),
-        ));
-    }
+    refuse_other_file(&path, &["html", "htm"])?;
+    let Page { text, counted: (what, count), unfinished } = page_of(folder)?;
     manner.write(&path, text.as_bytes())?;
     let shown = path.display().to_string();
     let record = json!({ "status": "reported", "file": shown, what: count, "unfinished": unfinished });

@@ -16,29 +16,27 @@ use crate::defect;
 use crate::estimate::{Estimate, NoBars};
 use crate::failure::{Failure, Told};
 use crate::interrupt::{self, Listener};
+use crate::manner::Manner;
 use crate::methods::paragraph;
 use crate::progress::Progress;
 use crate::summary::Summary;
 use crate::terminal;
 use fret_results::Tally;
-use fret_results::{ERROR_BARS, Origin, Record, ResultFolder, RunRecord, Standing, Stored, write_whole};
+use fret_results::{ERROR_BARS, Origin, Record, ResultFolder, RunRecord, Standing, Stored};
 
 /// Solves a case.
-pub fn run(arguments: &RunArguments, as_json: bool) -> Result<(), Told> {
+pub fn run(arguments: &RunArguments, as_json: bool, since: Instant) -> Result<(), Told> {
     let begun = Wanted::by(arguments).and_then(Wanted::prepared).and_then(|preparation| {
         interrupt::listen();
-        let beginning = preparation.begun(arguments.manner.quiet)?;
+        let beginning = preparation.begun()?;
         Ok((preparation, beginning))
     });
-    match begun {
-        Ok((preparation, Beginning::Nothing(record))) => {
-            Ok(preparation.solved_before(&record, arguments.manner.quiet, as_json)?)
-        }
-        Ok((preparation, Beginning::At(departure))) => {
-            preparation.solved(*departure, arguments.manner.quiet, as_json)
-        }
-        Err(failure) => Err(failure.into()),
+    match begun? {
+        (preparation, Beginning::Nothing(record)) => preparation.solved_before(&record, as_json)?,
+        (preparation, Beginning::At(departure)) => preparation.solved(*departure, as_json)?,
     }
+    arguments.manner.done(since);
+    Ok(())
 }
 
 /// Where a run begins.
@@ -63,15 +61,15 @@ struct Departure {
 /// # Errors
 /// What ended the run early; what was solved is in the folder.
 pub fn run_into(wanted: Wanted, guest: &mut Guest<'_>) -> Result<(), Failure> {
-    let preparation = Wanted { quiet: true, ..wanted }.prepared()?;
-    match preparation.begun(true)? {
+    let preparation = Wanted { manner: Manner::SILENT, ..wanted }.prepared()?;
+    match preparation.begun()? {
         Beginning::Nothing(record) => {
             let quantities = quantities_of(&record);
-            preparation.estimated(quantities, true, guest).map(|_| ())
+            preparation.estimated(quantities, guest).map(|_| ())
         }
         Beginning::At(departure) => {
-            let failure = preparation.followed(*departure, true, guest).failure;
-            failure.or_else(|| preparation.stresses(true).err()).map_or(Ok(()), Err)
+            let failure = preparation.followed(*departure, guest).failure;
+            failure.or_else(|| preparation.stresses(false).err()).map_or(Ok(()), Err)
         }
     }
 }
@@ -82,7 +80,7 @@ fn quantities_of(record: &Record) -> &[StageQuantities] {
 }
 
 impl Preparation {
-    fn begun(&self, quiet: bool) -> Result<Beginning, Failure> {
+    fn begun(&self) -> Result<Beginning, Failure> {
         let record = || {
             RunRecord::new(
                 &self.case_file,
@@ -98,20 +96,18 @@ impl Preparation {
             && let Some(taken) = ResultFolder::reopen(&self.folder, &self.case_file, &self.plan, record())?
         {
             let Stored { head, checkpoint } = taken.stored;
-            if !quiet {
-                if let Some(why) = &taken.passed_over {
-                    terminal::say(&format!("an older checkpoint is taken: {why}"));
-                }
-                if let Some(why) = &taken.ended {
-                    terminal::say(&format!("it failed before, and may fail again: {why}"));
-                }
-                terminal::say(&format!(
-                    "{}: {}; continuing with increment {} (counted from 0)",
-                    self.folder.display(),
-                    head.tally.standing(),
-                    checkpoint.solved()
-                ));
+            if let Some(why) = &taken.passed_over {
+                self.manner.say(&format!("an older checkpoint is taken: {why}"));
             }
+            if let Some(why) = &taken.ended {
+                self.manner.say(&format!("it failed before, and may fail again: {why}"));
+            }
+            self.manner.say(&format!(
+                "{}: {}; continuing with increment {} (counted from 0)",
+                self.folder.display(),
+                head.tally.standing(),
+                checkpoint.solved()
+            ));
             let (tally, wall_s) = (head.tally, head.wall_s);
             let departure = Departure { folder: taken.folder, tally, from: checkpoint, wall_s };
             return Ok(Beginning::At(Box::new(departure)));
@@ -122,9 +118,9 @@ impl Preparation {
     }
 
     /// Tells that the run was solved before. Only what error bars need besides is computed, when they are asked for.
-    fn solved_before(&self, record: &Record, quiet: bool, as_json: bool) -> Result<(), Failure> {
+    fn solved_before(&self, record: &Record, as_json: bool) -> Result<(), Failure> {
         let shown = self.folder.display().to_string();
-        let estimate = self.estimated(quantities_of(record), quiet, &mut Listener)?;
+        let estimate = self.estimated(quantities_of(record), &mut Listener)?;
         let done =
             if estimate.is_some() { "its error bars are computed now" } else { "nothing is left to do" };
         let message = format!("{shown}: solved already, {done}");
@@ -139,10 +135,10 @@ impl Preparation {
                 "error_bars": estimate.map(|estimate| estimate.to_json(|stage| self.stage_name(stage))),
             });
             terminal::answer_in_json(&answer)?;
-        } else if !quiet {
+        } else if !self.manner.quiet {
             let bars = estimate.map(|estimate| estimate.table(|stage| self.stage_name(stage)) + "\n\n");
             terminal::answer(&(bars.unwrap_or_default() + &message))?;
-            if let (true, Some(end)) = (self.verbose, &record.end) {
+            if let (true, Some(end)) = (self.manner.verbose, &record.end) {
                 let by = (record.version.as_str(), record.commit.as_str());
                 let methods = paragraph(&record.plan, end.totals.increments, by);
                 terminal::answer(&format!("\nfor the methods section:\n{methods}"))?;
@@ -152,12 +148,11 @@ impl Preparation {
     }
 
     /// Solves what is to be solved, and writes everything down.
-    fn followed(&self, departure: Departure, quiet: bool, guest: &mut Guest<'_>) -> Ended {
+    fn followed(&self, departure: Departure, guest: &mut Guest<'_>) -> Ended {
         let Departure { folder, tally, from, wall_s } = departure;
         let mut observer = RunObserver {
             folder,
-            progress: Progress::new(quiet, &self.case_file.title(&self.plan.case), &tally)
-                .telling_all(self.verbose),
+            progress: Progress::new(&self.manner, &self.case_file.title(&self.plan.case), &tally),
             tally,
             clock: Clock { started: Instant::now(), before_s: wall_s },
             quantities: QuantityReader::of(&self.plan),
@@ -175,7 +170,7 @@ impl Preparation {
             folder.close((&tally, &warnings), wall_s, failure.as_ref().map(Failure::ending).as_ref());
         let failure = failure.or_else(|| closed.err().map(Failure::from));
         let (estimate, failure) = match failure {
-            None => match self.estimated(&tally.stage_quantities, quiet, guest) {
+            None => match self.estimated(&tally.stage_quantities, guest) {
                 Ok(estimate) => (estimate, None),
                 Err(failure) => (None, Some(failure)),
             },
@@ -184,26 +179,25 @@ impl Preparation {
         Ended { tally, warnings, wall_s, estimate, failure }
     }
 
-    /// Stresses, temperatures and contact resistances, where the case asks for them.
-    fn stresses(&self, quiet: bool) -> Result<(), Failure> {
+    /// Stresses, temperatures and contact resistances, where the case asks for them; `told` if they are to be told in words.
+    fn stresses(&self, told: bool) -> Result<(), Failure> {
         let (case, folder) = (&self.plan.case, &self.folder);
-        let told = |text: &str| if quiet { Ok(()) } else { terminal::answer(text) };
+        let tell = |text: &str| if told { terminal::answer(text) } else { Ok(()) };
         if case.stress.is_some()
             && let Some((_, text)) = self.pool.install(|| stress::answered(folder))?
         {
-            told(&text)?;
+            tell(&text)?;
         }
         if !case.conduction.is_none()
             && let Some((_, text)) = self.pool.install(|| heat::answered(folder))?
         {
-            told(&text)?;
+            tell(&text)?;
         }
         Ok(())
     }
 
-    fn solved(&self, departure: Departure, quiet: bool, as_json: bool) -> Result<(), Told> {
-        let Ended { tally, warnings, wall_s, estimate, failure } =
-            self.followed(departure, quiet, &mut Listener);
+    fn solved(&self, departure: Departure, as_json: bool) -> Result<(), Told> {
+        let Ended { tally, warnings, wall_s, estimate, failure } = self.followed(departure, &mut Listener);
         let summary = Summary {
             plan: &self.plan,
             tally: &tally,
@@ -215,9 +209,9 @@ impl Preparation {
         };
         if as_json {
             terminal::answer_in_json(&summary.to_json(failure.as_ref()))?;
-        } else if failure.is_none() && !quiet {
+        } else if failure.is_none() && !self.manner.quiet {
             terminal::answer(&summary.table())?;
-            if self.verbose {
+            if self.manner.verbose {
                 terminal::answer(&format!("\nfor the methods section:\n{}", summary.methods()))?;
             }
         }
@@ -242,7 +236,10 @@ impl Preparation {
             }
             _ => {}
         }
-        let failure = failure.or_else(|| self.stresses(quiet || as_json).err());
+        let failure = failure.or_else(|| self.stresses(!self.manner.quiet && !as_json).err());
+        if failure.is_none() {
+            self.manner.wrote(&self.folder);
+        }
         failure.map_or(Ok(()), |failure| Err(Told { failure, in_json: as_json }))
     }
 
@@ -250,7 +247,6 @@ impl Preparation {
     fn estimated(
         &self,
         stage_quantities: &[StageQuantities],
-        quiet: bool,
         guest: &mut Guest<'_>,
     ) -> Result<Option<Estimate>, Failure> {
         let Some(companion) = &self.companion else { return Ok(None) };
@@ -258,7 +254,7 @@ impl Preparation {
         match self.pool.install(|| Estimate::new(plan, companion, stage_quantities, guest)) {
             Ok(estimate) => {
                 let text = format!("{:#}\n", estimate.to_json(|stage| self.stage_name(stage)));
-                write_whole(&self.folder.join(ERROR_BARS), text.as_bytes())?;
+                self.manner.write(&self.folder.join(ERROR_BARS), text.as_bytes())?;
                 Ok(Some(estimate))
             }
             Err(NoBars::Interrupted) => Err(Failure::Interrupted(format!(
@@ -266,9 +262,7 @@ impl Preparation {
                 self.folder.display()
             ))),
             Err(NoBars::Because(why)) => {
-                if !quiet {
-                    terminal::say(&format!("no error bars: {why}"));
-                }
+                self.manner.say(&format!("no error bars: {why}"));
                 Ok(None)
             }
         }

@@ -3,19 +3,25 @@
 
 use std::fmt::Write;
 
+use fret_core::case::Case;
+use fret_core::history::{CYCLE_COLUMNS, STEP_COLUMNS};
+use fret_core::model::Dimension;
 use fret_core::plan::Plan;
 use fret_core::sensitivity::{
     Direction, Gradient, NearEvents, Request, Sensitivities, SensitivityError, gradient,
 };
 use fret_core::uncertainty::{FirstOrder, first_order};
+use fret_core::units::Units;
 use serde_json::{Map, Value, json};
 
+use super::stress_kinds::kind_of_stress;
 use crate::arguments::SensitivityArguments;
 use crate::failure::Failure;
 use crate::figures::figure;
 use crate::interrupt;
 use crate::manner::Steps;
 use crate::scatter::Scatter;
+use crate::sweep::kinds::kind_of;
 use crate::table::Columns;
 use crate::terminal::Answer;
 use fret_results::{CaseFile, folder_for_answers};
@@ -36,20 +42,22 @@ pub fn sensitivity(arguments: &SensitivityArguments) -> Result<Answer, Failure> 
     let scattered = arguments.scatter.iter().map(|scatter| scatter.path.clone());
     let by = if arguments.by.is_empty() { scattered.collect() } else { arguments.by.clone() };
     let request = Request { of, by, direction: None };
+    let folder = arguments.manner.out.as_deref();
+    let folder = folder.map(|folder| folder_for_answers(folder, &[RECORD], "a sensitivity")).transpose()?;
     let found = pool.install(|| gradient(&plan, &request, &mut Steps(&arguments.manner))).map_err(refused)?;
     let spreads = spreads(&found, &arguments.scatter)?;
-    let mut record = record(&found);
+    let units = InUnits::of(&plan.case);
+    let mut record = record(&found, &units);
     if !spreads.is_empty() {
         record["first_order"] = spreads.iter().map(Spread::entry).collect();
     }
     let mut written = None;
-    if let Some(folder) = &arguments.manner.out {
-        let folder = folder_for_answers(folder, &[RECORD], "a sensitivity")?;
+    if let Some(folder) = folder {
         arguments.manner.write(&folder.join(RECORD), format!("{record:#}\n").as_bytes())?;
-        arguments.manner.write(&folder.join("sensitivity.csv"), csv(&found).as_bytes())?;
+        arguments.manner.write(&folder.join("sensitivity.csv"), csv(&found, &units).as_bytes())?;
         written = Some(format!("written to {}", folder.display()));
     }
-    let parts = std::iter::once(table(&found)).chain(spreads.iter().map(Spread::part)).chain(written);
+    let parts = std::iter::once(table(&found, &units)).chain(spreads.iter().map(Spread::part)).chain(written);
     Ok(Answer::new(record, parts.collect::<Vec<_>>().join("\n\n")))
 }
 
@@ -148,10 +156,50 @@ fn share_of_events(by: f64, other: f64) -> String {
     if share.is_finite() { format!("{share:+.2} %") } else { "-".to_owned() }
 }
 
+/// In which units results and numbers are, where the case declares units and they have one.
+struct InUnits<'a> {
+    units: Option<&'a Units>,
+    dimension: Dimension,
+}
+
+impl<'a> InUnits<'a> {
+    fn of(case: &'a Case) -> Self {
+        Self { units: case.units.as_ref(), dimension: case.dimension() }
+    }
+
+    /// That of a result, such as `increments[7].shift_x`, `cycles[0].stiffness` or `fatigue.crossland`.
+    fn of_result(&self, result: &str) -> Option<String> {
+        let (place, name) = result.rsplit_once('.').unwrap_or(("", result));
+        let kind = if place.ends_with("stress") || place.ends_with("fatigue") {
+            kind_of_stress(name)
+        } else if place.starts_with("cycles") {
+            CYCLE_COLUMNS.iter().find(|column| column.name == name)?.unit
+        } else {
+            STEP_COLUMNS.iter().find(|column| column.name == name)?.unit
+        };
+        self.named(kind)
+    }
+
+    /// That of a number of the case by its path.
+    fn of_number(&self, path: &str) -> Option<String> {
+        self.named(kind_of(&path.replace('[', ".").replace(']', ""))?)
+    }
+
+    fn named(&self, kind: &str) -> Option<String> {
+        let unit = Units::after(self.units, kind, self.dimension);
+        Some(unit.trim_start().to_owned()).filter(|unit| !unit.is_empty())
+    }
+}
+
 /// The answer for programs: of every result its value, and its derivatives by path.
-fn record(found: &Sensitivities) -> Value {
+fn record(found: &Sensitivities, units: &InUnits<'_>) -> Value {
     let parameters: Map<String, Value> =
         found.parameters.iter().map(|entry| (entry.path().to_owned(), json!(entry.value()))).collect();
+    let of_numbers: Map<String, Value> = found
+        .parameters
+        .iter()
+        .map(|entry| (entry.path().to_owned(), json!(units.of_number(entry.path()))))
+        .collect();
     let of = |gradient: &Gradient| {
         let (mut by, mut logarithms) = (Map::new(), Map::new());
         for (entry, derivative) in found.parameters.iter().zip(&gradient.by) {
@@ -164,6 +212,7 @@ fn record(found: &Sensitivities) -> Value {
         };
         json!({
             "value": gradient.value,
+            "unit": units.of_result(&gradient.of),
             "derivatives": by,
             "logarithmic_derivatives": logarithms,
             "derivatives_on_the_other_side": gradient.on_the_other_side.as_ref().map(by_path),
@@ -178,6 +227,7 @@ fn record(found: &Sensitivities) -> Value {
     json!({
         "status": "computed",
         "parameters": parameters,
+        "units_of_parameters": of_numbers,
         "of": gradients,
         "near_a_change_of_state": near,
         "direction": direction,
@@ -185,7 +235,7 @@ fn record(found: &Sensitivities) -> Value {
 }
 
 /// The answer as a file: a row for each result and number.
-fn csv(found: &Sensitivities) -> String {
+fn csv(found: &Sensitivities, units: &InUnits<'_>) -> String {
     let rows = found
         .gradients
         .iter()
@@ -202,15 +252,23 @@ fn csv(found: &Sensitivities) -> String {
         .column("derivative_on_the_other_side", "", |(gradient, place)| {
             gradient.on_the_other_side.as_ref().map(|by| by[*place])
         })
+        .column("unit", "", |(gradient, _)| units.of_result(&gradient.of))
+        .column("unit_of_number", "", |(_, place)| units.of_number(found.parameters[*place].path()))
         .csv(None, rows)
 }
 
 /// The answer for a person: one table a result, its parameters by the size of their effect.
-fn table(found: &Sensitivities) -> String {
-    let width = found.parameters.iter().map(|entry| entry.path().len()).max().unwrap_or(0).max(9);
+fn table(found: &Sensitivities, units: &InUnits<'_>) -> String {
+    let called = |path: &str| match units.of_number(path) {
+        Some(unit) => format!("{path} [{unit}]"),
+        None => path.to_owned(),
+    };
+    let names = found.parameters.iter().map(|entry| called(entry.path()).chars().count());
+    let width = names.max().unwrap_or(0).max(9);
     let mut text = String::new();
     for gradient in &found.gradients {
-        let _ = writeln!(text, "{} = {}", gradient.of, figure(gradient.value));
+        let unit = units.of_result(&gradient.of).map_or_else(String::new, |unit| format!(" {unit}"));
+        let _ = writeln!(text, "{} = {}{unit}", gradient.of, figure(gradient.value));
         let others = gradient.on_the_other_side.as_ref();
         let head = if others.is_some() { "  other side" } else { "" };
         let _ = writeln!(text, "  {:<width$}  {:>12}  {:>12}{head}", "by", "d ln / d ln", "derivative");
@@ -235,7 +293,7 @@ fn table(found: &Sensitivities) -> String {
             let sign = if found.is_some_and(|found| found < 0.0) { "-" } else { "+" };
             let line = format!(
                 "  {:<width$}  {shown:>12}  {:>12}{share}  {}",
-                entry.path(),
+                called(entry.path()),
                 figure(by),
                 sign.repeat(bar)
             );

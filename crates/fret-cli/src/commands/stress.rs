@@ -100,7 +100,7 @@ fn computed(
             .map_err(|error| Failure::Call(error.to_string(), "or --auto".to_owned()))?,
         None => automatic_depths(half_space, reach(run, &surfaces), AUTOMATIC),
     };
-    let place = place_of_answer(manner, folder, "stress", "stress.json")?;
+    let place = place_of_answer(manner, folder, ("stress", "stress.json", "stresses of a run"))?;
     let constants = run.fatigue_constants(request);
     let mut tables = StressTables::new(run, request, (half_space, &constants), &points, &surfaces);
     // where one axis alone has no end, they need a datum

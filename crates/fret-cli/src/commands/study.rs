@@ -15,7 +15,7 @@ use crate::arguments::{StudyArguments, StudyRequest};
 use crate::defect;
 use crate::failure::Failure;
 use crate::figures::{counted, duration};
-use crate::interrupt;
+use crate::interrupt::{self, Listener};
 use crate::manner::Steps;
 use crate::report::study::STUDY;
 use crate::study::levels::{LEVELS, Levels};
@@ -133,9 +133,9 @@ pub fn studied(
     let said = [words::measured_by, words::without_order].map(|of| of(&reference, &shown, dimension));
     let measured =
         if known.is_empty() { words::NO_ERRORS.to_owned() } else { said.join("\n").trim_end().to_owned() };
-    let of_the_way =
-        words::first_after_steady(plan).map(|stage| words::of_the_way(&plan.case.stages[stage].name));
-    let measured = of_the_way.map_or(measured.clone(), |words| format!("{measured}\n{words}"));
+    let of_the_way = words::first_after_steady(&plan.case.stages)
+        .map(|stage| words::of_the_way(&plan.case.stages[stage].name, "are not compared"));
+    let measured = [measured].into_iter().chain(of_the_way).collect::<Vec<_>>().join("\n");
     Ok(Studied { record, study, lines, measured })
 }
 
@@ -239,12 +239,12 @@ fn all_levels(
             levels.push((*place, level));
             continue;
         }
+        say(&head);
         match timed(&varied, observer) {
             Ok(level) => {
                 if let Some(kept) = kept {
                     kept.keep(&varied, &level)?;
                 }
-                say(&format!("{head}: {}", duration(level.wall_s)));
                 levels.push((*place, level));
             }
             Err(failure @ Failure::Unsolved(_)) if *place != resolutions.finest() => {
@@ -264,14 +264,15 @@ fn all_levels(
     Ok((RefinementStudy::new(resolutions, levels), unsolved))
 }
 
-/// A level, solved a few times where that is quick, with the least of its times.
+/// A level, solved a few times where that is quick, with the least of its times; the observer hears of the first.
 fn timed(plan: &Plan, observer: &mut dyn Observer) -> Result<Level, Failure> {
-    let mut once =
-        || -> Result<Level, Failure> { defect::caught(|| Ok(solved_level(plan, &mut *observer)?)) };
-    let mut best = once()?;
+    let once = |observer: &mut dyn Observer| -> Result<Level, Failure> {
+        defect::caught(|| Ok(solved_level(plan, observer)?))
+    };
+    let mut best = once(observer)?;
     for _ in 1..TIMES {
         if best.wall_s < QUICK {
-            best.wall_s = best.wall_s.min(once()?.wall_s);
+            best.wall_s = best.wall_s.min(once(&mut Listener)?.wall_s);
         }
     }
     Ok(best)

@@ -20,6 +20,7 @@ use crate::failure::{Failure, Told};
 use crate::figures::{counted, duration};
 use crate::interrupt::{self, Keeper, Listener};
 use crate::manner::Manner;
+use crate::sweep::setting::Setting;
 use crate::sweep::{Answer, Besides, Planned, Point, Question, SweepFolder, asks_for_more};
 use crate::terminal;
 use crate::threads;
@@ -27,12 +28,12 @@ use fret_results::Origin;
 use fret_results::stem;
 
 /// Solves all points of a sweep.
-pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
+pub fn sweep(arguments: &SweepArguments, as_json: bool, since: Instant) -> Result<(), Told> {
     let question = Question::read(&arguments.sweep)?;
     let origin = arguments.from.as_deref().map(Origin::read).transpose()?;
     let own = || Path::new("results").join(stem(&arguments.sweep, "sweep"));
     let path = arguments.manner.out.clone().unwrap_or_else(own);
-    let folder = SweepFolder::open(&path, &question.text, origin.as_ref())?;
+    let folder = SweepFolder::open(&path, &question.text, origin.as_ref(), &arguments.manner)?;
     folder.list(&question)?;
     interrupt::listen();
     let threads = threads::asked(arguments.threads);
@@ -45,33 +46,28 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
         return Err(failure.into());
     }
     let summary = summary?;
-    arguments.manner.wrote(&summary);
     let spread = folder.spread(&question, &board.answers())?;
     let counts = board.counts();
-    if as_json {
-        terminal::answer_in_json(&json!({
-                "status": if counts.unsolved() == 0 { "solved" } else { "some points not solved" },
-                "points": question.points.len(),
-                "solved": counts.solved,
-                "unsolved": counts.unsolved(),
-                "refused": counts.refused,
-                "failed": counts.failed,
-                "solved_before": board.solved_before,
-                "summary": summary.display().to_string(),
-        }))?;
-    } else if !arguments.manner.quiet {
-        if let Some(table) = spread {
-            terminal::answer(&format!("{table}\n"))?;
-        }
-        terminal::answer(&format!(
-            "{} solved, {} not, {} found finished\nsummary    {}\npage       fret report {}",
-            counts.solved,
-            counts.unsolved(),
-            board.before,
-            summary.display(),
-            path.display()
-        ))?;
-    }
+    let record = json!({
+        "status": if counts.unsolved() == 0 { "solved" } else { "some points not solved" },
+        "points": question.points.len(),
+        "solved": counts.solved,
+        "unsolved": counts.unsolved(),
+        "refused": counts.refused,
+        "failed": counts.failed,
+        "solved_before": board.solved_before,
+        "summary": summary.display().to_string(),
+    });
+    let told = format!(
+        "{} solved, {} not, {} found finished\nsummary    {}\npage       fret report {}",
+        counts.solved,
+        counts.unsolved(),
+        board.before,
+        summary.display(),
+        path.display()
+    );
+    let text = spread.map(|table| table + "\n").into_iter().chain([told]).collect::<Vec<_>>().join("\n");
+    arguments.manner.tell(&terminal::Answer::new(record, text), as_json, since)?;
     match counts {
         Counts { refused: 0, failed: 0, .. } => Ok(()),
         Counts { refused, failed, .. } => {
@@ -110,6 +106,8 @@ impl Counts {
 /// What the workers share: the points, the next of them, the answers.
 struct Board<'a> {
     question: &'a Question,
+    /// In which units its values are told.
+    setting: Setting,
     origin: Option<Origin>,
     /// Points to be solved, of equal ones the first.
     open: Vec<usize>,
@@ -164,6 +162,7 @@ impl<'a> Board<'a> {
         let planned = Planned::of(&question.points, &open, origin.as_ref());
         Self {
             planned,
+            setting: Setting::of(question),
             question,
             origin,
             before: known.iter().flatten().count(),
@@ -181,27 +180,25 @@ impl<'a> Board<'a> {
     }
 
     fn announce(&self, threads: usize) {
-        if !self.manner.quiet {
-            let found = if self.before > 0 {
-                format!(", {} of them finished before", self.before)
-            } else {
-                String::new()
-            };
-            let points = counted(self.question.points.len(), "point");
-            let equal = match self.equal.values().flatten().count() {
-                0 => String::new(),
-                count => format!(", {count} equal to another"),
-            };
-            let common = match self.planned.common.count() {
-                0 => String::new(),
-                count => format!(", {} solved once", counted(count, "common beginning")),
-            };
-            terminal::say(&format!("{points}{found}{equal}{common}, on {}", counted(threads, "thread")));
-        }
+        let found = if self.before > 0 {
+            format!(", {} of them finished before", self.before)
+        } else {
+            String::new()
+        };
+        let points = counted(self.question.points.len(), "point");
+        let equal = match self.equal.values().flatten().count() {
+            0 => String::new(),
+            count => format!(", {count} equal to another"),
+        };
+        let common = match self.planned.common.count() {
+            0 => String::new(),
+            count => format!(", {} solved once", counted(count, "common beginning")),
+        };
+        self.manner.say(&format!("{points}{found}{equal}{common}, on {}", counted(threads, "thread")));
     }
 
     /// Solves what is open: a point a thread, all threads for the points when there are fewer.
-    fn work(&self, folder: &SweepFolder, threads: usize) -> Option<Failure> {
+    fn work(&self, folder: &SweepFolder<'_>, threads: usize) -> Option<Failure> {
         let workers = threads.min(self.open.len()).max(1);
         let each = threads / workers;
         if let Err(failure) = threads::check(workers * each) {
@@ -223,7 +220,7 @@ impl<'a> Board<'a> {
         self.ended.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 
-    fn solve_points(&self, folder: &SweepFolder, threads: usize) -> Result<(), Failure> {
+    fn solve_points(&self, folder: &SweepFolder<'_>, threads: usize) -> Result<(), Failure> {
         let pool = threads::pool(threads)?;
         while let Some(&number) = self.open.get(self.next.fetch_add(1, Ordering::Relaxed)) {
             let point = &self.question.points[number];
@@ -269,7 +266,6 @@ impl<'a> Board<'a> {
                 Err(_) => Answer::unsolved(&Failure::Defect(format!("point {number} ended in a panic"))),
             };
             folder.keep(&self.question.keys, point, &answer)?;
-            self.manner.step(|| format!("written: {}", folder.place(point).display()));
             self.tell(number, answer);
         }
         Ok(())
@@ -340,20 +336,15 @@ impl<'a> Board<'a> {
         }
         answers[number] = Some(answer);
         let done = answers.iter().flatten().count();
-        if self.manner.quiet {
-            return;
-        }
         let (all, new) = (answers.len(), done - self.before);
         let left = self.started.elapsed().as_secs_f64() * (all - done) as f64 / new as f64;
         let values = self.question.keys.iter().zip(&self.question.points[number].values);
-        let place: Vec<String> = values.map(|(key, value)| format!("{key} = {value}")).collect();
+        let place = self.setting.place(values);
         let width = all.to_string().len();
         let time = if done < all { format!("about {} left", duration(left)) } else { String::new() };
-        terminal::say(
-            format!("point {done:>width$}/{all}  {status}  {}  {time}", place.join(", ")).trim_end(),
-        );
+        self.manner.say(format!("point {done:>width$}/{all}  {status}  {place}  {time}").trim_end());
         for line in why {
-            terminal::say(&format!("  {line}"));
+            self.manner.say(&format!("  {line}"));
         }
     }
 

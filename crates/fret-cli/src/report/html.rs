@@ -4,7 +4,7 @@ use std::borrow::Borrow;
 
 use maud::{Markup, html};
 
-use crate::figures::figure;
+use crate::figures::{figure, typed};
 use crate::table::Columns;
 
 use crate::drawing::scale::superscript;
@@ -21,10 +21,7 @@ pub fn short(value: f64) -> String {
 
 /// A number as it was typed: as few digits as say it.
 pub fn given(value: f64) -> String {
-    // what was typed in degrees or read from a file has digits of rounding
-    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
-    let is_plain = (1e-3..1e5).contains(&value.abs()) || value == 0.0;
-    printed(&if is_plain { format!("{rounded}") } else { format!("{rounded:e}") })
+    printed(&typed(value))
 }
 
 /// Digits with a power of ten in place of an `e`, and a true minus.

@@ -123,8 +123,9 @@ impl StudyRecord {
             references: of_quantities(|quantity| reference.of(quantity).to_vec()),
             convergence: of_quantities(|quantity| {
                 let convergence = reference.convergence(quantity);
-                let is_told = reference.source(quantity).is_some() || convergence == Convergence::NoLimit;
-                is_told.then_some(convergence)
+                let is_told =
+                    reference.source(quantity).is_some() || convergence == Some(Convergence::NoLimit);
+                convergence.filter(|_| is_told)
             }),
             kinds: Kind::ALL.to_vec(),
             lines: lines.iter().map(line).collect(),

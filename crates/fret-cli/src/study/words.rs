@@ -1,12 +1,17 @@
 //! What a study says in words: what it was compared with, and what to choose.
 
 use fret_core::model::Dimension;
-use fret_core::plan::Plan;
+use fret_core::model::stage::Stage;
 use fret_core::study::{Advice, Convergence, Quantity, Reference, Source};
+
+use crate::figures::counted;
 
 /// Why a study shows no errors.
 pub const NO_ERRORS: &str = "no errors: no closed form is available for this case, and a single level cannot be compared \
                              with a finer one; give more levels, as in --cells 32,64,128, or numbers with --against FILE";
+
+/// Why a largest pressure has no limit.
+pub const GROWS: &str = "it grows with the number of cells at a sharp edge, a tip or a crease";
 
 /// A quantity of interest in words.
 pub fn name(quantity: Quantity, dimension: Dimension) -> &'static str {
@@ -28,16 +33,15 @@ pub fn name(quantity: Quantity, dimension: Dimension) -> &'static str {
 }
 
 /// The first stage after one that rolls on to a steady state, where it does not do so itself.
-pub fn first_after_steady(plan: &Plan) -> Option<usize> {
-    let stages = &plan.case.stages;
+pub fn first_after_steady<M>(stages: &[Stage<M>]) -> Option<usize> {
     let steady = stages.iter().position(|stage| stage.steady)?;
     (steady..stages.len()).find(|stage| !stages[*stage].steady)
 }
 
-/// What has no numbers from a stage on that follows a steady state.
-pub fn of_the_way(stage: &str) -> String {
+/// What shift and dissipated energy lack, as in `are not compared`, from a stage on that follows a steady state, and why.
+pub fn of_the_way(stage: &str, lack: &str) -> String {
     format!(
-        "shift and dissipated energy from {stage:?} on are not compared: they go on from a steady state, which counts by the roll of one cell; \
+        "shift and dissipated energy from {stage:?} on {lack}: they go on from a steady state, which counts by the roll of one cell; \
          make that the last stage where they matter"
     )
 }
@@ -56,7 +60,7 @@ pub fn measured_by(reference: &Reference, shown: &dyn Fn(Quantity) -> bool, dime
             .into_iter()
             .filter(|quantity| reference.source(*quantity) == Some(source) && shown(*quantity))
             .filter(|quantity| {
-                source != Source::Limit || reference.convergence(*quantity) != Convergence::TwoLevels
+                source != Source::Limit || reference.convergence(*quantity) != Some(Convergence::TwoLevels)
             })
             .map(|quantity| name(quantity, dimension))
             .collect();
@@ -74,7 +78,7 @@ pub fn without_order(
     let of = |convergence: Convergence| {
         let is_one = |quantity: &Quantity| {
             let is_told = convergence == Convergence::NoLimit || shown(*quantity);
-            reference.convergence(*quantity) == convergence && is_told
+            reference.convergence(*quantity) == Some(convergence) && is_told
         };
         let names: Vec<&str> =
             Quantity::ALL.into_iter().filter(is_one).map(|quantity| name(quantity, dimension)).collect();
@@ -82,9 +86,7 @@ pub fn without_order(
     };
     let mut said = Vec::new();
     if let Some(names) = of(Convergence::NoLimit) {
-        said.push(format!(
-            "{names}: no limit, it grows with the number of cells at a sharp edge or a tip; no error is told"
-        ));
+        said.push(format!("{names}: no limit, {GROWS}; no error is told"));
     }
     if let Some(names) = of(Convergence::NotAsymptotic) {
         said.push(format!("{names}: not in the asymptotic range (no order between half and twice the expected one), not extrapolated"));
@@ -117,7 +119,7 @@ pub fn choice(
             let ny = (nx as f64 * ny_over_nx).round().max(1.0) as usize;
             format!("{} cells", dimension.written([nx, ny]))
         });
-        let steps = advice.increments.map(|count| format!("{count} increments per stage or cycle"));
+        let steps = advice.increments.map(|count| counted(count, "increment") + " per stage or cycle");
         let chosen: Vec<String> = [(cells, grid, "cells"), (increments, steps, "increments")]
             .into_iter()
             .filter(|(varied, ..)| *varied)
@@ -131,7 +133,7 @@ pub fn choice(
         let more = if open { " Finer grids determine the cells: --cells with larger numbers." } else { "" };
         let is_one = |wanted: Convergence| {
             move |quantity: &Quantity| {
-                reference.convergence(*quantity) == wanted
+                reference.convergence(*quantity) == Some(wanted)
                     && (wanted == Convergence::NoLimit || happens(reference, *quantity))
             }
         };

@@ -7,18 +7,18 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use fret_core::case::content;
-use fret_core::model::{Dimension, digest};
-use fret_core::units::Units;
+use fret_core::model::digest;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
 use crate::failure::{Failure, Unwritten};
+use crate::manner::Manner;
 use crate::sweep::columns::{SummaryColumn, columns};
-use crate::sweep::kinds::kind_of;
 use crate::sweep::record::{PointOfSweep, SweepRecord};
+use crate::sweep::setting::Setting;
 use crate::sweep::{Answer, Point, Question, Sampled, Spread};
 use fret_results::Origin;
-use fret_results::{folder_below, resolved_path, write_whole};
+use fret_results::{folder_below, resolved_path};
 
 /// Version of the folder's format.
 const FORMAT: u32 = 2;
@@ -45,18 +45,25 @@ pub struct Kept {
 
 /// The folder of a sweep.
 #[derive(Debug)]
-pub struct SweepFolder {
+pub struct SweepFolder<'a> {
     path: PathBuf,
+    /// How much is told of what is written.
+    manner: &'a Manner,
     /// Digest of the state that every point starts from, when there is one.
     start: Option<String>,
 }
 
-impl SweepFolder {
+impl<'a> SweepFolder<'a> {
     /// Makes the folder ready; finished points in it stay.
     ///
     /// # Errors
     /// When the folder holds something else, or cannot be written.
-    pub fn open(path: &Path, sweep: &str, origin: Option<&Origin>) -> Result<Self, Failure> {
+    pub fn open(
+        path: &Path,
+        sweep: &str,
+        origin: Option<&Origin>,
+        manner: &'a Manner,
+    ) -> Result<Self, Failure> {
         let path = resolved_path(path);
         let holds_something = fs::read_dir(&path).is_ok_and(|mut entries| entries.next().is_some());
         if path.exists() && !path.is_dir() || holds_something && !path.join(SWEEP).exists() {
@@ -67,9 +74,9 @@ impl SweepFolder {
         }
         fs::create_dir_all(&path).map_err(Unwritten::at(&path))?;
         folder_below(&path, Path::new(POINTS))?;
-        write_whole(&path.join(SWEEP), sweep.as_bytes())?;
+        manner.write(&path.join(SWEEP), sweep.as_bytes())?;
         let start = origin.map(|origin| origin.start.digest().to_owned());
-        Ok(Self { path, start })
+        Ok(Self { path, manner, start })
     }
 
     /// The answer of a finished point; a file that cannot be read is no answer.
@@ -91,7 +98,7 @@ impl SweepFolder {
             values: keys.iter().zip(&point.values).map(|(key, value)| (key.clone(), plain(value))).collect(),
             case: point.case_file.text.clone(),
         };
-        write_whole(&self.place(point), format!("{:#}\n", json!(kept)).as_bytes())
+        self.manner.write(&self.place(point), format!("{:#}\n", json!(kept)).as_bytes())
     }
 
     /// Writes the summary of what is finished.
@@ -122,7 +129,7 @@ impl SweepFolder {
             let _ = writeln!(text, ",{}", cell(&json!(answer.message())));
         }
         let path = self.path.join(SUMMARY);
-        write_whole(&path, text.as_bytes())?;
+        self.manner.write(&path, text.as_bytes())?;
         Ok(path)
     }
 
@@ -151,10 +158,13 @@ impl SweepFolder {
         let keys = question.drawn_keys();
         let beside = question.keys.len() - keys.len();
         let firsts = question.points.iter().step_by(design.points().max(1));
-        let at =
-            firsts.map(|point| question.keys.iter().cloned().zip(point.values[..beside].to_vec()).collect());
+        let at = firsts.map(|point| {
+            let values: Vec<_> = question.keys.iter().cloned().zip(point.values[..beside].to_vec()).collect();
+            (setting.place(values.iter().map(|(key, value)| (key, value))), values)
+        });
         let spread = Spread::new(keys, design, at.collect(), &columns);
-        write_whole(&self.path.join(UNCERTAINTY), format!("{:#}\n", json!(spread.record())).as_bytes())?;
+        self.manner
+            .write(&self.path.join(UNCERTAINTY), format!("{:#}\n", json!(spread.record())).as_bytes())?;
         Ok(Some(spread.table()))
     }
 
@@ -176,7 +186,7 @@ impl SweepFolder {
             dimension,
             points: question.points.iter().map(point).collect(),
         };
-        write_whole(&self.path.join(RECORD), format!("{}\n", json!(record)).as_bytes())
+        self.manner.write(&self.path.join(RECORD), format!("{}\n", json!(record)).as_bytes())
     }
 
     /// A folder beside the finished points for the run of one of them, while it is asked for more than its numbers.
@@ -198,50 +208,6 @@ impl SweepFolder {
         }
         format!("{}.json", digest(known_by))
     }
-}
-
-/// In which units the numbers of a sweep are told.
-struct Setting {
-    units: Option<Units>,
-    dimension: Dimension,
-}
-
-impl Setting {
-    /// Those of its cases, where all declare the same and have the same kind of contact.
-    fn of(question: &Question) -> Self {
-        let mut all = question.points.iter().map(|point| point.case_file.text.parse::<toml::Table>().ok());
-        let of = |table: Option<toml::Table>| {
-            let table = table.unwrap_or_default();
-            (units_of(&table), dimension_of(&table))
-        };
-        let first = all.next().map_or((None, Dimension::Plane), of);
-        let changes = |key: &str| question.keys.iter().any(|changed| changed.starts_with(key));
-        let alike = !changes("units") && !changes("grid.cells") || all.all(|other| of(other) == first);
-        Self { units: first.0.filter(|_| alike), dimension: first.1 }
-    }
-
-    fn heading(&self, column: &SummaryColumn) -> String {
-        Units::heading(self.units.as_ref(), &column.name, &column.kind, self.dimension)
-    }
-
-    fn heading_of_key(&self, key: &str) -> String {
-        Units::heading(self.units.as_ref(), key, kind_of(key).unwrap_or(""), self.dimension)
-    }
-}
-
-/// Units that a case declares.
-fn units_of(table: &toml::Table) -> Option<Units> {
-    let units = table.get("units")?;
-    Some(Units::new(units.get("length")?.as_str()?, units.get("force")?.as_str()?))
-}
-
-/// Of a line contact the cells of a case are those of one row, or told by one number.
-fn dimension_of(table: &toml::Table) -> Dimension {
-    Dimension::from(match table.get("grid").and_then(|grid| grid.get("cells")) {
-        Some(toml::Value::Array(cells)) => cells.get(1).and_then(toml::Value::as_integer) == Some(1),
-        Some(cells) => cells.is_integer(),
-        None => false,
-    })
 }
 
 fn title_of(text: &str) -> Option<String> {

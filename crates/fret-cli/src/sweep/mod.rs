@@ -1,6 +1,6 @@
 //! Many cases: the written question of a sweep (`question`), what a key of an axis names (`key`) and the kind of its quantity (`kinds`), what a point came to
 //! (`answer`) and its numbers by name (`columns`), the open ones planned, with what they have in common (`planned`), the folder that keeps
-//! it (`folder`, its `record`); samples of uncertain keys (`drawn`) and what they say (`spread`).
+//! it (`folder`, its `record`), the units that its numbers are told in (`setting`); samples of uncertain keys (`drawn`) and what they say (`spread`).
 
 mod answer;
 pub mod columns;
@@ -11,6 +11,7 @@ pub mod kinds;
 mod planned;
 mod question;
 pub mod record;
+pub mod setting;
 mod spread;
 
 pub use answer::{Answer, Besides, Path, direction, last_cycle};

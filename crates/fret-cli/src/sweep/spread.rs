@@ -106,6 +106,8 @@ type Values = Vec<(String, toml::Value)>;
 
 /// The samples at one point of the axes.
 struct AtPoint {
+    /// The same in words.
+    place: String,
     values: Values,
     /// Numbers of the answers, in the order of their columns.
     quantities: Vec<(String, QuantityRecord)>,
@@ -113,11 +115,11 @@ struct AtPoint {
 
 impl<'a> Spread<'a> {
     /// Of columns of numbers, all samples of the first point, then of the next. `at`: the values of the
-    /// points, empty ones where there is no axis.
+    /// points, in words and as they are, empty ones where there is no axis.
     pub fn new(
         keys: &'a [String],
         design: &'a SampleDesign,
-        at: Vec<Values>,
+        at: Vec<(String, Values)>,
         columns: &'a [Sampled],
     ) -> Self {
         let own = if design.indices { 2 * design.count } else { design.count };
@@ -129,10 +131,10 @@ impl<'a> Spread<'a> {
             let sobol_indices = indices.map(|indices| keys.iter().cloned().zip(indices).collect());
             Some((name.clone(), QuantityRecord { statistics, sobol_indices }))
         };
-        let at_point = |(place, values): (usize, Values)| {
-            let part = |values: &'a [f64]| values.chunks(each).nth(place).unwrap_or_default();
+        let at_point = |(number, (place, values)): (usize, (String, Values))| {
+            let part = |values: &'a [f64]| values.chunks(each).nth(number).unwrap_or_default();
             let parts = columns.iter().map(|column| (&column.name, part(&column.numbers)));
-            AtPoint { values, quantities: parts.filter_map(quantity).collect() }
+            AtPoint { place, values, quantities: parts.filter_map(quantity).collect() }
         };
         Self { keys, design, columns, points: at.into_iter().enumerate().map(at_point).collect() }
     }
@@ -163,9 +165,8 @@ impl<'a> Spread<'a> {
     /// For a person: the numbers that vary, point by point.
     pub fn table(&self) -> String {
         let parts = self.points.iter().map(|point| {
-            let value = |(key, value): &(String, toml::Value)| format!("{key} = {value}");
-            let head = point.values.iter().map(value).collect::<Vec<_>>().join(", ");
-            if head.is_empty() { self.part(point) } else { format!("{head}\n{}", self.part(point)) }
+            let part = self.part(point);
+            if point.place.is_empty() { part } else { format!("{}\n{part}", point.place) }
         });
         parts.collect::<Vec<_>>().join("\n\n")
     }

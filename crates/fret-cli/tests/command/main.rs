@@ -18,6 +18,7 @@ mod manners;
 mod memory;
 mod misleading;
 mod moving;
+mod options;
 mod places;
 mod refused;
 mod rolled;

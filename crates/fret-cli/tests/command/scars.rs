@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use crate::bench::Bench;
 
-const WORN: &str = "units = { length = \"mm\", force = \"N\" }\n[grid]\ncells = 96\nsize = 0.6\n[upper]\nrigid = true\n\
+pub const WORN: &str = "units = { length = \"mm\", force = \"N\" }\n[grid]\ncells = 96\nsize = 0.6\n[upper]\nrigid = true\n\
     [lower]\nsubstrate = { young = 115e3, poisson = 0.32 }\n[profile.cylinder]\nradius = 6.0\naxis = \"y\"\n[friction]\ncoefficient = 0.8\n\
     [wear]\ncoefficient = 3e-8\nevery = 200\n[output]\nfields = [\"pressure\", \"worn_depth\"]\n\
     [[load]]\nnormal_force = 120.0\nincrements = 4\n[[load]]\nshift = [0.02, 0.0]\ncycles = 1000\nincrements = 8\n";

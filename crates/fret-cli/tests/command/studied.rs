@@ -172,9 +172,8 @@ fn stages_without_error_bars_are_told_of_and_the_others_keep_theirs() {
     let answer = bench.file("case.toml", &case).fret(&["run", "case.toml", "--estimate-error"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);
     for words in [
-        "no error bars at the end of roll on: the auxiliary coarse solution: ",
-        "no error bars at the end of rest: the auxiliary coarse solution: ",
-        "shift and dissipated energy from \"rest\" on are not compared",
+        "no error bars at the end of roll on, rest: the auxiliary coarse solution: ",
+        "shift and dissipated energy from \"rest\" on have no error bars",
     ] {
         assert!(answer.out.contains(words), "{words}: {}", answer.out);
     }
@@ -182,6 +181,41 @@ fn stages_without_error_bars_are_told_of_and_the_others_keep_theirs() {
     assert_eq!(file["stages"].as_array().map(Vec::len), Some(1));
     assert!(file["stages"][0]["max_pressure"]["error_bar"].as_f64().unwrap() > 0.0);
     assert_eq!(file["without"][0]["name"], "roll on");
+    // and the page says so, too
+    assert_eq!(bench.fret(&["report", "results/case"]).code, Some(0));
+    let page = bench.text("results/case/report.html");
+    for words in
+        ["no error bars at the end of roll on, rest: the auxiliary", "on have no error bars: they go on"]
+    {
+        assert!(page.contains(words), "{words}");
+    }
+}
+
+/// Two levels show no limit, also where a number is the same on both: nothing is compared with an extrapolation.
+#[test]
+fn two_levels_show_no_limit() {
+    let bench = Bench::new("two-levels");
+    let coat = "[grid]\ncells = [16, 16]\nsize = [120e-6, 120e-6]\n[upper]\nrigid = true\n[lower]\nsubstrate = { young = 210e9, poisson = 0.3 }\n\
+                coatings = [{ thickness = 10e-6, young = 400e9, poisson = 0.2 }]\n[profile.sphere]\nradius = 10e-3\n[[load]]\nnormal_force = 1.0\nincrements = 2\n";
+    bench.file("coat.toml", coat);
+    let told = |words: &[&str]| {
+        let answer = bench.fret(&[&["study", "coat.toml", "--out", "study"], words].concat());
+        assert_eq!(answer.code, Some(0), "{}", answer.err);
+        let record: Value = serde_json::from_str(&bench.text("study/study.json")).unwrap();
+        (answer.out, record["convergence"].clone())
+    };
+    let (out, convergence) = told(&["--cells", "16,32", "--increments", "1,2"]);
+    assert!(!out.contains("Richardson"), "{out}");
+    assert!(out.contains("contact area compared with the finest level"), "{out}");
+    assert_eq!(
+        (&convergence["contact_area"], &convergence["max_pressure"]),
+        (&Value::Null, &"two_levels".into())
+    );
+    let (_, convergence) = told(&["--cells", "16,32"]);
+    assert_eq!(
+        (&convergence["contact_area"], &convergence["approach"]),
+        (&Value::Null, &"two_levels".into())
+    );
 }
 
 #[test]
@@ -272,6 +306,8 @@ fn the_largest_pressure_at_an_edge_or_a_tip_has_no_limit() {
         assert!(!table.out.contains("  max pressure  "), "no column of errors: {}", table.out);
         let run = bench.fret(&["run", &file]);
         assert!(run.out.contains("limit of max pressure"), "{name}: {}", run.out);
+        assert_eq!(bench.fret(&["report", &format!("results/{name}")]).code, Some(0));
+        assert!(bench.text(&format!("results/{name}/report.html")).contains("(no limit: it grows"), "{name}");
     }
     let sphere = bench.file("sphere.toml", HERTZ).fret(&["run", "sphere.toml"]);
     assert!(!sphere.out.contains("limit of max pressure"), "{}", sphere.out);

@@ -181,10 +181,11 @@ fn samples_at_every_point_of_an_axis_are_those_of_a_sweep_for_each() {
     let drawn = "[distributions]\n\"friction.coefficient\" = { uniform = { from = 0.1, to = 0.2 } }\n[samples]\ncount = 4\n\
         seed = 3\nindices = true\n";
     let axes = "base = \"case.toml\"\n[axes]\nprofile.sphere.radius = [10e-3, 20e-3]\n";
-    let together = bench.file("case.toml", SPHERE).file("many.toml", &format!("{axes}{drawn}"));
+    let with_units = format!("units = {{ length = \"m\", force = \"N\" }}\n{SPHERE}");
+    let together = bench.file("case.toml", &with_units).file("many.toml", &format!("{axes}{drawn}"));
     let answer = together.fret(&["sweep", "many.toml"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);
-    assert!(answer.out.contains("profile.sphere.radius = 0.02\n8 samples"), "{}", answer.out);
+    assert!(answer.out.contains("profile.sphere.radius = 0.02 m\n8 samples"), "{}", answer.out);
     // of one uncertain key, samples with its value exchanged are those of the other half: four at each radius
     assert!(answer.err.contains("24 points, 8 equal to another"), "{}", answer.err);
     assert_eq!(std::fs::read_dir(bench.folder.join("results/many/points")).unwrap().count(), 16);

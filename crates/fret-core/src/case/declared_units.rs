@@ -10,15 +10,24 @@ const LONGEST: usize = 12;
 
 /// The declared units; `None` where one was refused.
 pub(super) fn declared_units(judge: &mut Judge, file: &UnitsFile) -> Option<Units> {
-    let mut word = |name: &str, given: &At<String>| {
+    let mut word = |name: &str, base: &str, given: &At<String>| {
         let unit = &given.value;
         let is_word = !unit.is_empty()
             && unit.chars().count() <= LONGEST
             && unit.chars().all(|letter| letter.is_alphanumeric() || "/^*._-%'\"°".contains(letter));
         if let Some(symbol) = symbol_of(unit) {
-            let why = "the name of a unit, where its symbol stands: nothing could be converted";
-            let message = format!("units.{name} = {unit:?}: {why}");
-            return judge.refuse(given.span(), message, &format!("{name} = \"{symbol}\""));
+            let is_one = symbol.ends_with(base);
+            let why = if is_one {
+                "the name of a unit, where its symbol belongs: nothing could be converted".to_owned()
+            } else {
+                format!("no unit of {name}")
+            };
+            let help = if is_one {
+                format!("{name} = \"{symbol}\"")
+            } else {
+                format!("for example {name} = \"{base}\"")
+            };
+            return judge.refuse(given.span(), format!("units.{name} = {unit:?}: {why}"), &help);
         }
         if is_word {
             return Some(unit.clone());
@@ -29,7 +38,7 @@ pub(super) fn declared_units(judge: &mut Judge, file: &UnitsFile) -> Option<Unit
             "for example length = \"mm\", force = \"N\": then pressures are in MPa",
         )
     };
-    let (length, force) = (word("length", &file.length), word("force", &file.force));
+    let (length, force) = (word("length", "m", &file.length), word("force", "N", &file.force));
     Some(Units::new(&length?, &force?))
 }
 
@@ -55,6 +64,11 @@ mod tests {
         }
         let named = [("[grid]", &units("millimeter")[..])];
         refused(BALL, &named, "units.length = \"millimeter\": the name of a unit", "\"millimeter\"");
+        // no symbol of a force helps where a length belongs
+        let mistaken = [("[grid]", &units("newton")[..])];
+        refused(BALL, &mistaken, "units.length = \"newton\": no unit of length", "\"newton\"");
+        let mistaken = [("[grid]", "[units]\nlength = \"mm\"\nforce = \"meter\"\n[grid]")];
+        refused(BALL, &mistaken, "units.force = \"meter\": no unit of force", "\"meter\"");
         assert_eq!(read(BALL, &[]).units, None);
     }
 }

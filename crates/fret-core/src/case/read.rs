@@ -1,5 +1,7 @@
 //! From text to a case: read in one pass (`document`), then judged (`check`).
 
+use std::ops::Range;
+
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -40,11 +42,14 @@ pub fn refuse_too_long(text: &str, name: &str, what: &str) -> Result<(), CaseErr
 pub(super) fn case(text: &str, name: &str, attachments: Attachments<'_>) -> Result<Case, CaseError> {
     refuse_too_long(text, name, "a case file")?;
     let root = DeTable::parse(text).map_err(|error| {
-        let span = error.span();
-        let found = span.clone().and_then(|span| text.get(span)).and_then(without_comma);
-        let why = if found.is_some() { "a comma is missing between numbers" } else { error.message() };
-        let message = format!("not readable as TOML: {why}");
-        CaseError::new(name, text, vec![Mistake { message, help: found, span }])
+        let missing = error.span().and_then(|span| missing_comma(text, error.message(), span));
+        let mistake = missing.unwrap_or_else(|| Mistake {
+            message: error.message().to_owned(),
+            help: None,
+            span: error.span(),
+        });
+        let message = format!("not readable as TOML: {}", mistake.message);
+        CaseError::new(name, text, vec![Mistake { message, ..mistake }])
     })?;
     if depth(root.get_ref()) > DEEPEST {
         return Err(CaseError::plain(name, format!("tables nested deeper than {DEEPEST}: not a case")));
@@ -75,6 +80,38 @@ fn without_comma(text: &str) -> Option<String> {
     let parts: Vec<&str> = text.split_whitespace().collect();
     let are_numbers = parts.iter().all(|part| part.parse::<f64>().is_ok());
     (parts.len() > 1 && are_numbers).then(|| parts.join(", "))
+}
+
+/// What the parser says of a comma that is missing, in the words of a case file: between numbers, entries of a list or keys of a table.
+fn missing_comma(text: &str, message: &str, span: Range<usize>) -> Option<Mistake> {
+    if let Some(numbers) = text.get(span.clone()).and_then(without_comma) {
+        let message = "a comma is missing between numbers".to_owned();
+        return Some(Mistake { message, help: Some(numbers), span: Some(span) });
+    }
+    let before = |what: &str, place: Range<usize>| {
+        let message = format!("a comma is missing between {what}");
+        let word = text.get(place.clone()).filter(|word| !word.is_empty());
+        Some(Mistake { message, help: word.map(|word| format!(", {word}")), span: Some(place) })
+    };
+    let is_of_key = |letter: char| letter.is_alphanumeric() || "_-.".contains(letter);
+    let word_at = |start: usize| {
+        let length = text.get(start..).and_then(|rest| rest.find(|letter| !is_of_key(letter)));
+        start..start + length.unwrap_or(0)
+    };
+    if message.starts_with("missing comma between array elements") {
+        return before("entries of a list", word_at(span.start));
+    }
+    if message.starts_with("missing comma between key-value pairs") {
+        return before("keys of a table", word_at(span.start));
+    }
+    // A number and the key behind it are one word to the parser, with a second `=` behind it.
+    let value_and_key = text.get(..span.start)?.trim_end().rsplit('=').next()?;
+    let (value, key) = value_and_key.rsplit_once(char::is_whitespace)?;
+    let is_meant = message.starts_with("extra assignment between key-value pairs")
+        && !value.trim().is_empty()
+        && key.chars().all(is_of_key);
+    let end = text.get(..span.start)?.trim_end().len();
+    if is_meant { before("keys of a table", end - key.len()..end) } else { None }
 }
 
 fn depth(table: &DeTable<'_>) -> usize {

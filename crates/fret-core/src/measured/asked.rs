@@ -11,7 +11,7 @@ pub struct Asked {
 
 impl Asked {
     /// The unit that is asked for.
-    pub(super) fn unit_of(&self, role: &str) -> Option<&str> {
+    pub(crate) fn unit_of(&self, role: &str) -> Option<&str> {
         self.units.iter().find(|(of, _)| of == role).map(|(_, unit)| unit.as_str())
     }
 }

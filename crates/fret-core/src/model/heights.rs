@@ -168,6 +168,9 @@ pub struct HeightsSummary {
     /// What was done to them, where they came from an instrument or were treated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub treatment: Option<Treatment>,
+    /// Whether they are means of a surface whose points lie farther apart than the cells: it is straight between them, and has creases.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub has_creases: bool,
 }
 
 impl Serialize for Heights {
@@ -176,7 +179,8 @@ impl Serialize for Heights {
         let hash = self.depths.hash.get_or_init(|| fingerprint(self.depths()));
         let (source, fnv1a64) = (self.source.clone(), hash.clone());
         let (cells, rms, treatment) = (self.cells(), self.rms(), self.treatment().cloned());
-        HeightsSummary { source, cells, rms, valley, fnv1a64, treatment }.serialize(serializer)
+        let has_creases = self.are_coarser_than(cells);
+        HeightsSummary { source, cells, rms, valley, fnv1a64, treatment, has_creases }.serialize(serializer)
     }
 }
 

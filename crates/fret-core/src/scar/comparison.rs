@@ -4,12 +4,16 @@ use super::hollow::Hollow;
 use super::levelled::levelled;
 use super::line::{Line, Measured};
 use crate::measured::{MeasuredError, refused};
+use crate::units::{Units, conversion};
 
 /// Wear depths below this share of the largest are no scar.
 const WORN: f64 = 1e-3;
 
 /// Depths that differ by more are perhaps in other units.
 const FACTOR: f64 = 30.0;
+
+/// Units that instruments write heights in.
+const HEIGHTS: [&str; 4] = ["nm", "um", "mm", "m"];
 
 /// A number of both scars.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,13 +62,22 @@ pub struct Comparison {
     pub notes: Vec<String>,
 }
 
+/// Another unit of heights in which a scar that is so many times too deep would be nearest to right, if that one is known.
+fn likelier(unit: Option<&str>, ratio: f64) -> Option<&'static str> {
+    let metres = |unit: &str| Some(conversion(unit, "length", Some(&Units::new("m", "N"))).ok()?.factor());
+    let own = metres(unit?)?;
+    let off = |unit: &str| metres(unit).map_or(f64::INFINITY, |other| (other / own * ratio).ln().abs());
+    let others = HEIGHTS.into_iter().filter(|other| metres(other) != Some(own));
+    others.min_by(|one, other| off(one).total_cmp(&off(other)))
+}
+
 /// Compares a computed wear depth along a line of cells with a measured line: tilt and offset are those of the surroundings of the scar, and
 /// the middles of both scars are laid together.
 ///
 /// # Errors
 /// When there is no scar on either side, or the line ends in it.
 pub fn compare(computed: &Line, width: f64, measured: Measured) -> Result<Comparison, MeasuredError> {
-    let Measured { name, line, mut notes } = measured;
+    let Measured { name, line, unit, mut notes } = measured;
     let Some(own) = Hollow::of(computed) else {
         return Err(refused(&name, "the computed surfaces are not worn", "a run with [wear], to its end"));
     };
@@ -100,7 +113,8 @@ pub fn compare(computed: &Line, width: f64, measured: Measured) -> Result<Compar
     let ratio = other.depth / one.depth;
     if !(1.0 / FACTOR..FACTOR).contains(&ratio) {
         notes.push(format!(
-            "the measured scar is {ratio:.1e} times as deep as the computed one: is the unit of the heights right? --units \"height=um\""
+            "the measured scar is {ratio:.1e} times as deep as the computed one: is the unit of the heights right?{}",
+            likelier(unit.as_deref(), ratio).map_or_else(String::new, |unit| format!(" --units \"height={unit}\""))
         ));
     }
     if level.counts_depths {
@@ -156,7 +170,7 @@ mod tests {
     fn measured(depth: f64, half: f64) -> Measured {
         let x: Vec<f64> = (0..700).map(|k| 100.0 + 0.02 * f64::from(k)).collect();
         let z = x.iter().map(|x| 3.0 - 0.01 * x - parabola(depth, half, x - 107.0)).collect();
-        Measured { name: "line".to_owned(), line: Line { x, z }, notes: Vec::new() }
+        Measured { name: "line".to_owned(), line: Line { x, z }, unit: None, notes: Vec::new() }
     }
 
     #[test]
@@ -209,6 +223,23 @@ mod tests {
         assert_eq!(compare(&computed, 0.1, measured(0.3, 4.0)).unwrap().means_over, None);
     }
 
+    /// Micrometres read as nanometres, millimetres or metres, and the other way about; no unit is proposed that the heights have already.
+    #[test]
+    fn a_scar_that_is_a_thousand_times_too_deep_is_perhaps_in_another_unit() {
+        let x = cells();
+        let computed = Line { z: x.iter().map(|x| parabola(0.3, 4.0, *x)).collect(), x };
+        for (unit, depth, proposed) in
+            [("um", 300.0, "nm"), ("um", 3e-4, "mm"), ("mm", 250.0, "um"), ("µm", 12.0, "nm")]
+        {
+            let deep = Measured { unit: Some(unit.to_owned()), ..measured(depth, 4.0) };
+            let found = compare(&computed, 0.1, deep).unwrap();
+            let proposed = format!("right? --units \"height={proposed}\"");
+            assert!(found.notes.iter().any(|note| note.ends_with(&proposed)), "{unit}: {:?}", found.notes);
+        }
+        let unknown = compare(&computed, 0.1, measured(300.0, 4.0)).unwrap();
+        assert!(unknown.notes.iter().any(|note| note.ends_with("right?")), "{:?}", unknown.notes);
+    }
+
     #[test]
     fn what_cannot_be_compared_is_refused() {
         let flat = Line { x: cells(), z: vec![0.0; 128] };
@@ -217,7 +248,7 @@ mod tests {
         let wide = Line { z: x.iter().map(|x| parabola(0.2, 6.3, *x)).collect(), x };
         let Measured { line, .. } = measured(0.3, 2.0);
         let short = Line { x: line.x[150..550].to_vec(), z: line.z[150..550].to_vec() };
-        let short = Measured { name: "line".to_owned(), line: short, notes: Vec::new() };
+        let short = Measured { name: "line".to_owned(), line: short, unit: None, notes: Vec::new() };
         assert!(compare(&wide, 0.1, short).unwrap_err().what.contains("does not reach"));
     }
 }

@@ -54,6 +54,8 @@ pub struct Measured {
     pub name: String,
     /// Position and height, as the instrument counts them.
     pub line: Line,
+    /// The unit that the heights were taken in, where one is known.
+    pub unit: Option<String>,
     /// What was taken for granted while it was read.
     pub notes: Vec<String>,
 }
@@ -70,6 +72,9 @@ pub fn read(
     let table = measured::read((name, bytes), (&ROLES, "line of heights"), asked, true)?;
     let mut notes = Vec::new();
     let scale = scales(&table, (&ROLES, asked), (units, Dimension::Plane), &mut notes)?;
+    let named = asked.unit_of(ROLES[1].name).map(str::to_owned);
+    let named = named.or_else(|| table.columns.get(1)?.as_ref()?.unit.clone());
+    let unit = named.or_else(|| units.map(|units| units.length.clone()));
     if table.lines.len() < FEWEST_POINTS {
         let what = format!("{} points: a scar needs at least {FEWEST_POINTS}", table.lines.len());
         return Err(refused(name, &what, "some hundred points serve well"));
@@ -82,7 +87,7 @@ pub fn read(
         return Err(refused(name, &what, "one line at a time: each position once"));
     }
     let (x, z) = points.into_iter().map(|[x, z]| (x, z)).unzip();
-    Ok(Measured { name: name.to_owned(), line: Line { x, z }, notes })
+    Ok(Measured { name: name.to_owned(), line: Line { x, z }, unit, notes })
 }
 
 impl Line {

@@ -32,11 +32,12 @@ pub fn heading(counts: &[f64], values: &[f64], known: Option<f64>, noise: f64) -
     let step = values[n - 1] - values[n - 2];
     let ratio = counts[n - 1] / counts[n - 2];
     let beyond = |order: f64| step / (ratio.powf(order) - 1.0);
-    if step.abs() <= ROUNDING * values[n - 1].abs() {
-        return Heading::Limit(0.0);
-    }
+    let step = if step.abs() <= ROUNDING * values[n - 1].abs() { 0.0 } else { step };
     if n == 2 {
         return Heading::TwoLevels(step);
+    }
+    if step == 0.0 {
+        return Heading::Limit(0.0);
     }
     let within = known.map_or(ORDERS, |known| [0.5 * known, 2.0 * known]);
     match shown_order(&counts[n - 3..n], &values[n - 3..n], within) {
@@ -98,6 +99,8 @@ mod tests {
             assert_eq!(heading(&counts, &values, None, 0.0), Heading::NotAsymptotic);
         }
         assert_eq!(heading(&counts[..1], &[1.0], Some(2.0), 0.0), Heading::Alone);
+        // two equal values show no limit either: the next may be another one
+        assert_eq!(heading(&counts[..2], &[1.0, 1.0 + 1e-15], None, 0.0), Heading::TwoLevels(0.0));
         assert_eq!(heading(&counts, &[1.0, 1.0, 1.0 + 1e-15], None, 0.0), Heading::Limit(0.0));
         // changes as small as the solver leaves them are no sign of an order
         assert_eq!(heading(&counts, &[1.0, 1.0 + 2e-9, 1.0 + 1e-9], None, 1e-8), Heading::Limit(0.0));

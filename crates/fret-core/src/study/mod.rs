@@ -36,5 +36,5 @@ pub use quantities::{PerQuantity, Quantity, QuantityReader, StageQuantities};
 pub use reference::{Convergence, Reference, Source};
 pub use refinement_study::{Judged, Line, RefinementStudy};
 pub use resolutions::{Kind, Place, ResolutionError, Resolutions};
-pub use unbounded::{has_edges, pressure_is_unbounded};
+pub use unbounded::{pressure_is_unbounded, pressure_of_run_is_unbounded};
 pub use variation::{Variation, VariationError};

@@ -42,7 +42,7 @@ pub enum Convergence {
     TwoLevels,
     /// Its levels show no order that is plausible: they are not in the asymptotic range.
     NotAsymptotic,
-    /// It has no limit: the largest pressure at a sharp edge or a tip grows with the number of cells without bound.
+    /// It has no limit: the largest pressure at a sharp edge, a tip or a crease grows with the number of cells without bound.
     NoLimit,
 }
 
@@ -51,7 +51,8 @@ pub enum Convergence {
 pub struct Reference {
     /// For each quantity of interest its values at the end of each stage, and where they come from; `None` where nothing is known.
     numbers: PerQuantity<(Vec<Option<[f64; 2]>>, Source)>,
-    convergence: PerQuantity<Convergence>,
+    /// How each quantity approaches its limit; `None` where its levels say nothing of that.
+    convergence: PerQuantity<Option<Convergence>>,
     form: Option<ClosedForm>,
     finest: Option<Fields>,
 }
@@ -72,7 +73,7 @@ impl Reference {
         };
         Self {
             numbers: Quantity::ALL.map(of),
-            convergence: [Convergence::Observed; Quantity::ALL.len()],
+            convergence: [Some(Convergence::Observed); Quantity::ALL.len()],
             form: Some(form),
             finest: None,
         }
@@ -91,7 +92,7 @@ impl Reference {
         let fields = Some(Fields::of(finest));
         Self {
             numbers: Quantity::ALL.map(of),
-            convergence: [Convergence::Observed; Quantity::ALL.len()],
+            convergence: [Some(Convergence::Observed); Quantity::ALL.len()],
             form: None,
             finest: fields,
         }
@@ -117,7 +118,7 @@ impl Reference {
             let (values, source) = &mut reference.numbers[quantity as usize];
             let own = values.clone();
             let mut shows_a_limit = false;
-            let mut convergence = Convergence::Observed;
+            let mut convergence = None;
             for (end, value) in values.iter_mut().enumerate() {
                 let Some(value) = value else { continue };
                 for (kind, counts, levels) in lines.iter().filter(|(kind, ..)| has_order(quantity, *kind)) {
@@ -129,21 +130,24 @@ impl Reference {
                             .filter_map(|level| Some(level.ends.get(end)?.between(quantity)?[axis]))
                             .collect();
                         let (missing, shown) = match heading(counts, &along, order, noise) {
-                            Heading::Alone => continue,
+                            Heading::Alone | Heading::TwoLevels(0.0) => continue,
                             Heading::Limit(missing) => (missing, Convergence::Observed),
                             Heading::TwoLevels(missing) => (missing, Convergence::TwoLevels),
                             Heading::NotAsymptotic => (0.0, Convergence::NotAsymptotic),
                         };
                         *part += missing;
                         shows_a_limit |= along.iter().any(|value| *value != 0.0);
-                        if convergence != Convergence::NotAsymptotic && shown != Convergence::Observed {
-                            convergence = shown;
-                        }
+                        // what shows less than others do counts
+                        convergence = match (convergence, shown) {
+                            (Some(known), Convergence::Observed)
+                            | (Some(known @ Convergence::NotAsymptotic), _) => Some(known),
+                            _ => Some(shown),
+                        };
                     }
                 }
             }
             reference.convergence[quantity as usize] = convergence;
-            if convergence == Convergence::NotAsymptotic {
+            if convergence == Some(Convergence::NotAsymptotic) {
                 *values = own;
             } else if shows_a_limit {
                 *source = Source::Limit;
@@ -170,12 +174,12 @@ impl Reference {
     #[must_use]
     pub fn without_limit(mut self, quantity: Quantity) -> Self {
         self.numbers[quantity as usize].0.fill(None);
-        self.convergence[quantity as usize] = Convergence::NoLimit;
+        self.convergence[quantity as usize] = Some(Convergence::NoLimit);
         self
     }
 
-    /// How a quantity approaches its limit in the study.
-    pub fn convergence(&self, quantity: Quantity) -> Convergence {
+    /// How a quantity approaches its limit in the study; `None` where its levels say nothing of that.
+    pub fn convergence(&self, quantity: Quantity) -> Option<Convergence> {
         self.convergence[quantity as usize]
     }
 
@@ -195,7 +199,7 @@ impl Reference {
     pub fn nothing(stages: usize) -> Self {
         Self {
             numbers: std::array::from_fn(|_| (vec![None; stages], Source::Given)),
-            convergence: [Convergence::Observed; Quantity::ALL.len()],
+            convergence: [Some(Convergence::Observed); Quantity::ALL.len()],
             form: None,
             finest: None,
         }

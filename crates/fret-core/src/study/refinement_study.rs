@@ -126,8 +126,8 @@ impl RefinementStudy {
                 orders(&counts, &solved.iter().map(|k| error(&all[*k].1)).collect::<Vec<_>>())
             };
             let of_numbers = Quantity::ALL.map(|quantity| {
-                let is_observed =
-                    reference.convergence(quantity) == Convergence::Observed && has_order(quantity, kind);
+                let is_observed = reference.convergence(quantity) == Some(Convergence::Observed)
+                    && has_order(quantity, kind);
                 along(&|errors| errors.of_quantity(quantity).filter(|_| is_observed))
             });
             let of_fields = [along(&|errors| errors.pressure), along(&|errors| errors.shear)];

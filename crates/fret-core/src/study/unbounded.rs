@@ -1,6 +1,6 @@
 //! Pressure that has no largest value.
 
-use crate::case::Case;
+use crate::case::{Case, CaseRecord};
 use crate::model::Shape;
 
 /// Whether the exact pressure of a case grows without bound somewhere: at the sharp edge of a flat punch or of a cylinder that
@@ -12,8 +12,14 @@ pub fn pressure_is_unbounded(case: &Case, cells: [usize; 2]) -> bool {
     has_edges(&profile.shapes) || profile.heights.iter().any(|heights| heights.are_coarser_than(cells))
 }
 
+/// The same of the case of a run, on its cells, as its record holds it.
+pub fn pressure_of_run_is_unbounded(case: &CaseRecord) -> bool {
+    let profile = &case.profile;
+    has_edges(&profile.shapes) || profile.heights.iter().any(|heights| heights.has_creases)
+}
+
 /// Whether it is that of one of these shapes.
-pub fn has_edges(shapes: &[Shape]) -> bool {
+fn has_edges(shapes: &[Shape]) -> bool {
     let has_a_kink = |shape: &Shape| {
         matches!(shape, Shape::Cone { .. } | Shape::Pyramid { .. } | Shape::WornSphere { .. })
     };

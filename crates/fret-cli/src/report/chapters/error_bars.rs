@@ -20,7 +20,7 @@ pub fn error_bars(view: &Overview<'_>) -> Result<Markup, Failure> {
         return Ok(html! {});
     }
     let record: BarsRecord = read_answer(&path, AGAIN)?;
-    let estimate = Estimate::read_back(&record, !view.is_frictionless());
+    let estimate = Estimate::read_back(&record, view.results.plan());
     let names: Vec<String> = estimate.bars.iter().map(|bars| view.stage_name(bars.stage)).collect();
     let head: Vec<&str> = std::iter::once("at the end of").chain(names.iter().map(String::as_str)).collect();
     let rows: Vec<Vec<String>> = estimate
@@ -44,6 +44,7 @@ pub fn error_bars(view: &Overview<'_>) -> Result<Markup, Failure> {
         &html! {
             p { "Errors of cells and increments, " (source) ": the true value of the model is expected within them." }
             (table(&head, &rows))
+            @for line in estimate.lacking(|stage| view.stage_name(stage)) { p class="small" { (line) } }
         },
     ))
 }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use fret_core::history::WornTo;
 use fret_core::model::Dimension;
-use fret_core::study::has_edges;
+use fret_core::study::pressure_of_run_is_unbounded;
 use maud::{Markup, html};
 
 use crate::figures::{capitalised, counted, duration};
@@ -66,7 +66,7 @@ fn cards(view: &Overview<'_>) -> Vec<(Cow<'static, str>, String)> {
         Dimension::Line => "max contact width",
     };
     let case = view.results.case();
-    let pressure = if has_edges(&case.profile.shapes) {
+    let pressure = if pressure_of_run_is_unbounded(case) {
         "max pressure (no limit: it grows with the number of cells)"
     } else {
         "max pressure"

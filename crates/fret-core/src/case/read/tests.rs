@@ -53,6 +53,20 @@ fn texts_beyond_any_case_are_refused_before_they_are_walked() {
     }
     told("[grid", &[("not readable as TOML", "")]);
     told("size = [4e-3 0.0]", &[("not readable as TOML: a comma is missing between numbers", "4e-3 0.0")]);
+    for (table, place) in [
+        ("{ young = 210e3 poisson = 0.3 }", "poisson"),
+        ("{ name = 'a' poisson = 0.3 }", "poisson"),
+        ("{ young = 1.0\n poisson = 0.3 }", "poisson"),
+        ("{ young = { a = 1 } poisson = 0.3 }", "poisson"),
+    ] {
+        let text = format!("substrate = {table}\n");
+        told(&text, &[("not readable as TOML: a comma is missing between keys of a table", place)]);
+        assert_eq!(mistakes(&text)[0].2, ", poisson");
+    }
+    told("a = ['b' 3]\n", &[("a comma is missing between entries of a list", "3")]);
+    // not every second `=` is one
+    told("a = { b = = 3 }\n", &[("not readable as TOML: ", "")]);
+    assert!(!mistakes("a = { b = = 3 }\n")[0].0.contains("comma is missing"));
 }
 
 #[test]
