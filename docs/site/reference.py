@@ -35,10 +35,10 @@ def command_line() -> str:
 
 
 def _help(*words: str) -> str:
-    # Without a terminal the help is wrapped at 100 columns, whatever COLUMNS says.
-    environment = {**os.environ, "NO_COLOR": "1"}
+    # Without a terminal (its input would be one, too) and without COLUMNS the help is wrapped at 100 columns.
+    environment = {name: value for name, value in os.environ.items() if name != "COLUMNS"} | {"NO_COLOR": "1"}
     call = [sys.executable, "-m", "fretting", *words, "--help"]
-    done = subprocess.run(call, capture_output=True, text=True, check=True, env=environment)
+    done = subprocess.run(call, capture_output=True, text=True, check=True, env=environment, stdin=subprocess.DEVNULL)
     return "\n".join(line.rstrip() for line in done.stdout.strip().splitlines())
 
 

@@ -140,7 +140,7 @@ enum Tests {
 /// Long tests carry `#[ignore]` in Rust and the mark `long` in Python.
 fn test(which: Tests) -> Vec<Step> {
     let mut rust = vec!["test", "--release", "--workspace", "--locked"];
-    let mut pytest = vec!["-m", "pytest", "python/tests"];
+    let mut pytest = vec!["-m", "pytest", "--numprocesses=auto", "--dist=loadfile", "python/tests"];
     if which == Tests::All {
         rust.extend(["--", "--include-ignored"]);
         pytest.push("--long");
@@ -152,16 +152,16 @@ fn test(which: Tests) -> Vec<Step> {
     steps
 }
 
+/// In release mode, as the tests: what the compiler runs itself (derives, build scripts) is then built once for all chores.
 fn check() -> Vec<Step> {
     let mut steps = vec![cargo(&["fmt", "--all", "--check"])];
     steps.extend(venv());
     steps.push(python("ruff, installed", &["-m", "pip", "install", "--quiet", "ruff==0.17.*"]));
     steps.push(python("Python rules", &["-m", "ruff", "check"]));
     steps.push(python("Python format", &["-m", "ruff", "format", "--check"]));
-    steps.push(cargo(&["clippy", "--workspace", "--all-targets", "--locked", "--", "--deny", "warnings"]));
-    steps.push(
-        cargo(&["doc", "--workspace", "--no-deps", "--locked"]).with("RUSTDOCFLAGS", "--deny warnings"),
-    );
+    let clippy = ["clippy", "--release", "--workspace", "--all-targets", "--locked", "--", "--deny", "warnings"];
+    steps.push(cargo(&clippy));
+    steps.push(doc());
     steps
 }
 
@@ -176,8 +176,7 @@ fn extremes() -> Vec<Step> {
 }
 
 fn docs() -> Vec<Step> {
-    let mut steps =
-        vec![cargo(&["doc", "--workspace", "--no-deps", "--locked"]).with("RUSTDOCFLAGS", "--deny warnings")];
+    let mut steps = vec![doc()];
     steps.extend(venv());
     let tools = ["-m", "pip", "install", "--quiet", ".[test]"];
     steps.push(python("documentation tools", &tools));
@@ -186,6 +185,10 @@ fn docs() -> Vec<Step> {
         python("site", &["-m", "mkdocs", "build", "--strict", "--quiet"]).with("NO_MKDOCS_2_WARNING", "1"),
     );
     steps
+}
+
+fn doc() -> Step {
+    cargo(&["doc", "--release", "--workspace", "--no-deps", "--locked"]).with("RUSTDOCFLAGS", "--deny warnings")
 }
 
 fn wheel() -> Vec<Step> {
