@@ -159,7 +159,8 @@ fn check() -> Vec<Step> {
     steps.push(python("ruff, installed", &["-m", "pip", "install", "--quiet", "ruff==0.17.*"]));
     steps.push(python("Python rules", &["-m", "ruff", "check"]));
     steps.push(python("Python format", &["-m", "ruff", "format", "--check"]));
-    let clippy = ["clippy", "--release", "--workspace", "--all-targets", "--locked", "--", "--deny", "warnings"];
+    let clippy =
+        ["clippy", "--release", "--workspace", "--all-targets", "--locked", "--", "--deny", "warnings"];
     steps.push(cargo(&clippy));
     steps.push(doc());
     steps
@@ -188,7 +189,8 @@ fn docs() -> Vec<Step> {
 }
 
 fn doc() -> Step {
-    cargo(&["doc", "--release", "--workspace", "--no-deps", "--locked"]).with("RUSTDOCFLAGS", "--deny warnings")
+    cargo(&["doc", "--release", "--workspace", "--no-deps", "--locked"])
+        .with("RUSTDOCFLAGS", "--deny warnings")
 }
 
 fn wheel() -> Vec<Step> {
