@@ -87,32 +87,6 @@ pub enum Verb {
     Sweep(SweepArguments),
 }
 
-impl Verb {
-    /// Where the verb writes its answer, and how much it tells; nothing of one whose answer is all it does.
-    pub fn manner(&self) -> Option<&Manner> {
-        Some(match self {
-            Self::Run(arguments) => &arguments.manner,
-            Self::Check(arguments) | Self::Plan(arguments) => &arguments.manner,
-            Self::Init(arguments) => &arguments.manner,
-            Self::Report(arguments) => &arguments.manner,
-            Self::Export(arguments) => &arguments.manner,
-            Self::Study(arguments) => &arguments.manner,
-            Self::Sensitivity(arguments) => &arguments.manner,
-            Self::Stress(arguments) => &arguments.manner,
-            Self::Identify(arguments) => &arguments.manner,
-            Self::CompareScar(arguments) => &arguments.manner,
-            Self::Heat(arguments) => &arguments.manner,
-            Self::Sweep(arguments) => &arguments.manner,
-            Self::Explain { .. }
-            | Self::Schema
-            | Self::Completions { .. }
-            | Self::Man { .. }
-            | Self::Explore(_)
-            | Self::Extremes { .. } => return None,
-        })
-    }
-}
-
 /// A case to begin with.
 #[derive(Debug, Args)]
 #[command(mut_arg("out", |out| out.value_name("FILE").requires("template").help("The file to write [default: the name with .toml]")))]

@@ -4,8 +4,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use fret_core::history::History;
-use fret_core::history::Start;
+use fret_core::history::{History, Start};
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::study::{StageQuantities, companion};
 use serde_json::{Value, json};
@@ -74,7 +73,7 @@ pub fn error_bars(
         Err(error) => return Ok(Err(error.to_string())),
     };
     match Estimate::new(plan, &coarse, quantities, guest) {
-        Ok(estimate) => Ok(Ok(estimate.to_json(|stage| plan.case.stages[stage].name.clone()))),
+        Ok(estimate) => Ok(Ok(json!(estimate.record))),
         Err(NoBars::Because(why)) => Ok(Err(why)),
         Err(NoBars::Interrupted) => {
             Err(Failure::Interrupted("stopped while the error bars were computed".to_owned()))
@@ -108,7 +107,7 @@ pub fn save(solved: Solved<'_>, case_file: &CaseFile, folder: &Path, wish: Wish)
         Standing::Free | Standing::SameCase | Standing::Forced => {}
         Standing::Unfinished | Standing::Solved(_) => {
             let what = format!("{}: holds results already", folder.display());
-            return Err(Failure::Call(what, "choose another folder with --out DIR".to_owned()));
+            return Err(Failure::call(what, "choose another folder with --out DIR"));
         }
     }
     let origin = origin_in_memory(plan.start.clone());

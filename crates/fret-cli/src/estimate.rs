@@ -4,17 +4,17 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::fmt::Write;
 
+use fret_core::case::Case;
 use fret_core::model::Dimension;
-use fret_core::plan::{Coupling, Plan, PlanRecord};
+use fret_core::plan::{Coupling, Plan};
 use fret_core::run::Observer;
 use fret_core::study::{Bar, Bars, Quantity, StageQuantities, error_bars, resolved, solved_ends};
-use serde::Deserialize;
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
 
 use crate::defect;
 use crate::failure::Failure;
 use crate::figures::{counted, duration, figure, shortened, side_by_side};
-use crate::study::words::{first_after_steady, name, of_the_way};
+use crate::study::words::{first_after_steady, of_the_way};
 
 /// Stages that stand side by side in the table.
 const MOST_COLUMNS: usize = 3;
@@ -33,18 +33,10 @@ pub enum NoBars {
 /// Error bars of the quantities of interest of a run.
 #[derive(Debug)]
 pub struct Estimate {
-    /// At the ends of the stages that were read, in order.
-    pub bars: Vec<Bars>,
-    /// Cells of the companion.
-    cells: [usize; 2],
-    /// Its increments.
-    increments: usize,
-    /// Its time [s].
-    wall_s: f64,
-    /// Stages without bars, and why: the cells do not show the contact well enough, or the coarse solution does not come so far.
-    without: Vec<(usize, String)>,
+    /// As their file holds them.
+    pub record: BarsRecord,
     /// The first stage after one that rolls on to a steady state.
-    after_steady: Option<usize>,
+    after_steady: Option<String>,
     /// Whether there is friction to speak of.
     rubs: bool,
 }
@@ -63,50 +55,84 @@ pub struct BarRow {
     pub cells: Vec<Option<Cell>>,
 }
 
-/// Error bars as their file holds them, see [`Estimate::to_json`].
-#[derive(Debug, Deserialize)]
+/// `error_bars.json`. What is written is what the report reads back.
+#[derive(Debug, Serialize, Deserialize)]
 pub struct BarsRecord {
     auxiliary: Auxiliary,
-    stages: Vec<StageBars>,
+    /// The ends of the stages that were read, in order.
+    pub stages: Vec<StageBars>,
     #[serde(default)]
     without: Vec<WithoutBars>,
 }
 
-#[derive(Debug, Deserialize)]
+/// The companion.
+#[derive(Debug, Serialize, Deserialize)]
 struct Auxiliary {
     cells: [usize; 2],
     increments: usize,
     wall_s: f64,
 }
 
-#[derive(Debug, Deserialize)]
-struct StageBars {
+/// The numbers at the end of a stage with their bars, by the names of their quantities.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct StageBars {
     stage: usize,
-    #[serde(rename = "name")]
-    _name: String,
+    /// The name of the stage.
+    pub name: String,
     #[serde(flatten)]
     numbers: BTreeMap<String, NumberWithBar>,
 }
 
-/// A stage without bars, and why.
-#[derive(Debug, Deserialize)]
+/// A stage without bars, and why: the cells do not show the contact well enough, or the coarse solution does not come so far.
+#[derive(Debug, Serialize, Deserialize)]
 struct WithoutBars {
     stage: usize,
+    name: String,
     why: String,
 }
 
-#[derive(Debug, Deserialize)]
+/// A bar of null: the number has no limit.
+#[derive(Debug, Serialize, Deserialize)]
 struct NumberWithBar {
     value: Told,
     error_bar: Option<f64>,
 }
 
 /// A number, or one along x and y.
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 #[serde(untagged)]
 enum Told {
     One(f64),
     Both([f64; 2]),
+}
+
+impl StageBars {
+    fn new(bars: &Bars, name: String) -> Self {
+        let number = |bar: &Bar| {
+            let value =
+                if bar.quantity.has_components() { Told::Both(bar.value) } else { Told::One(bar.value[0]) };
+            (bar.quantity.name().to_owned(), NumberWithBar { value, error_bar: bar.bar })
+        };
+        Self { stage: bars.stage, name, numbers: bars.bars.iter().map(number).collect() }
+    }
+
+    /// A component of a quantity; a scalar is its only one.
+    fn component(&self, quantity: Quantity, axis: usize) -> Option<Cell> {
+        let number = self.numbers.get(quantity.name())?;
+        let value = match number.value {
+            Told::One(one) => one,
+            Told::Both(both) => both[axis],
+        };
+        Some((value, number.error_bar))
+    }
+
+    /// The same, zero where it vanishes in the rounding of what it is beside: of a shift the approach, of a ratio one.
+    fn above_rounding(&self, quantity: Quantity, axis: usize) -> Option<Cell> {
+        let approach = self.component(Quantity::Approach, 0).filter(|_| quantity == Quantity::Shift);
+        let beside = approach.map_or(1.0, |(approach, _)| approach.abs());
+        let above = |value: f64| if value.abs() <= 1e-12 * beside { 0.0 } else { value };
+        self.component(quantity, axis).map(|(value, bar)| (above(value), bar.map(above)))
+    }
 }
 
 impl Estimate {
@@ -136,74 +162,56 @@ impl Estimate {
             let missed = || missed.clone().filter(|_| is_missed).map(of_coarse);
             resolved(end).err().map(|error| error.to_string()).or_else(missed)
         };
-        let without: Vec<(usize, String)> =
-            stage_quantities.iter().filter_map(|end| Some((end.stage, why_not(end)?))).collect();
+        let named = |stage: usize| plan.case.stages[stage].name.clone();
+        let without = |end: &StageQuantities| {
+            Some(WithoutBars { stage: end.stage, name: named(end.stage), why: why_not(end)? })
+        };
+        let without: Vec<WithoutBars> = stage_quantities.iter().filter_map(without).collect();
         let bars = error_bars(plan, stage_quantities, &coarse.ends);
-        if let (true, Some((_, why))) = (bars.is_empty(), without.first()) {
-            return Err(NoBars::Because(why.clone()));
+        if let (true, Some(first)) = (bars.is_empty(), without.first()) {
+            return Err(NoBars::Because(first.why.clone()));
         }
-        Ok(Self {
-            bars,
-            without,
-            after_steady: first_after_steady(&plan.case.stages),
+        let auxiliary = Auxiliary {
             cells: companion.case.cells,
             increments: companion.increments,
             wall_s: coarse.wall_s,
-            rubs: plan.coupling != Coupling::Frictionless,
-        })
+        };
+        let stages = bars.iter().map(|bars| StageBars::new(bars, named(bars.stage))).collect();
+        Ok(Self::of(BarsRecord { auxiliary, stages, without }, plan))
     }
 
-    /// An estimate of a file, of a run of this plan.
-    pub fn read_back(record: &BarsRecord, plan: &PlanRecord) -> Self {
-        let bar = |stage: &StageBars, quantity: Quantity| {
-            let number = stage.numbers.get(quantity.name())?;
-            let value = match number.value {
-                Told::Both(both) => both,
-                Told::One(one) => [one, 0.0],
-            };
-            Some(Bar { quantity, value, bar: number.error_bar })
-        };
-        let bars = |stage: &StageBars| Bars {
-            stage: stage.stage,
-            bars: Quantity::ALL.into_iter().filter_map(|quantity| bar(stage, quantity)).collect(),
-        };
-        Self {
-            bars: record.stages.iter().map(bars).collect(),
-            cells: record.auxiliary.cells,
-            increments: record.auxiliary.increments,
-            wall_s: record.auxiliary.wall_s,
-            without: record.without.iter().map(|of| (of.stage, of.why.clone())).collect(),
-            after_steady: first_after_steady(&plan.case.stages),
-            rubs: plan.coupling != Coupling::Frictionless,
-        }
+    /// The estimate of a run of this plan whose bars are known.
+    pub fn of<M, H>(record: BarsRecord, plan: &Plan<Case<M, H>>) -> Self {
+        let stages = &plan.case.stages;
+        let after_steady = first_after_steady(stages).map(|stage| stages[stage].name.clone());
+        Self { record, after_steady, rubs: plan.coupling != Coupling::Frictionless }
     }
 
     /// The numbers with their bars, a row a number, for the ends of some stages.
-    pub fn rows(&self, shown: &[Bars]) -> Vec<BarRow> {
-        let dimension = Dimension::of(self.cells);
-        let row = |name: &str, kind, cell: &dyn Fn(&Bars) -> Option<Cell>| BarRow {
-            name: name.to_owned(),
+    pub fn rows(&self, shown: &[StageBars]) -> Vec<BarRow> {
+        let dimension = Dimension::of(self.record.auxiliary.cells);
+        let row = |name: String, kind, cell: &dyn Fn(&StageBars) -> Option<Cell>| BarRow {
+            name,
             kind,
             cells: shown.iter().map(cell).collect(),
         };
-        let has = |quantity: Quantity| shown.iter().any(|bars| bars.of(quantity).is_some());
+        let has = |quantity: &Quantity| shown.iter().any(|bars| bars.component(*quantity, 0).is_some());
         let mut rows = Vec::new();
-        for quantity in Quantity::ALL.into_iter().filter(|quantity| has(*quantity)) {
-            let scalar = |bars: &Bars| bars.of(quantity).map(|bar| (bar.value[0], bar.bar));
-            let (name, kind) = (name(quantity, dimension), kind(quantity));
+        for quantity in Quantity::ALL.into_iter().filter(has) {
+            let scalar = |bars: &StageBars| bars.component(quantity, 0);
+            let (name, kind) = (quantity.in_words(dimension), quantity.kind());
             match quantity {
                 Quantity::StickArea | Quantity::Shift | Quantity::DissipatedEnergy if !self.rubs => {}
                 Quantity::Shift | Quantity::Creepage => {
                     for (axis, direction) in ["x", "y"].into_iter().enumerate() {
-                        rows.push(row(&format!("{name} {direction}"), kind, &|bars| {
-                            bars.of(quantity).map(|bar| component(&bar, axis, beside(bars, quantity)))
-                        }));
+                        let cell = |bars: &StageBars| bars.above_rounding(quantity, axis);
+                        rows.push(row(format!("{name} {direction}"), kind, &cell));
                     }
                 }
                 Quantity::ContactArea if dimension == Dimension::Plane => {
                     rows.push(row(name, kind, &scalar));
-                    let radius = |bars: &Bars| bars.of(quantity).as_ref().map(radius);
-                    rows.push(row("radius of a circle of that area", "length", &radius));
+                    let of_that_area = "radius of a circle of that area".to_owned();
+                    rows.push(row(of_that_area, "length", &|bars| scalar(bars).map(radius)));
                 }
                 _ => rows.push(row(name, kind, &scalar)),
             }
@@ -213,16 +221,18 @@ impl Estimate {
 
     /// Where they come from.
     pub fn source(&self) -> String {
-        let cells = Dimension::of(self.cells).written(self.cells);
-        let increments = counted(self.increments, "increment");
+        let Auxiliary { cells, increments, .. } = self.record.auxiliary;
+        let cells = Dimension::of(cells).written(cells);
+        let increments = counted(increments, "increment");
         format!("from an auxiliary coarse solution on {cells} cells with {increments}")
     }
 
     /// The numbers with their bars, a column a stage.
-    pub fn table(&self, stage_name: impl Fn(usize) -> String) -> String {
-        let shown = &self.bars[self.bars.len().saturating_sub(MOST_COLUMNS)..];
+    pub fn table(&self) -> String {
+        let stages = &self.record.stages;
+        let shown = &stages[stages.len().saturating_sub(MOST_COLUMNS)..];
         let mut table = String::new();
-        let names = shown.iter().map(|bars| shortened(&stage_name(bars.stage), COLUMN - 2));
+        let names = shown.iter().map(|bars| shortened(&bars.name, COLUMN - 2));
         side_by_side(&mut table, "error bars, at the end of", COLUMN, names);
         for BarRow { name, cells, .. } in self.rows(shown) {
             let told = cells
@@ -230,74 +240,28 @@ impl Estimate {
                 .map(|cell| cell.map_or("-".to_owned(), |(value, bar)| with_bar(value, bar)));
             side_by_side(&mut table, &name, COLUMN, told);
         }
-        let _ = write!(table, "{}, {}", self.source(), duration(self.wall_s));
-        for line in self.lacking(stage_name) {
+        let _ = write!(table, "{}, {}", self.source(), duration(self.record.auxiliary.wall_s));
+        for line in self.lacking() {
             let _ = write!(table, "\n{line}");
         }
         table
     }
 
     /// Which stages have no bars, and which numbers, with the reasons: a line a reason.
-    pub fn lacking(&self, stage_name: impl Fn(usize) -> String) -> Vec<String> {
-        let alike = self.without.chunk_by(|(_, one), (_, other)| one == other);
-        let line = |stages: &[(usize, String)]| {
-            let names: Vec<String> = stages.iter().map(|(stage, _)| stage_name(*stage)).collect();
-            format!("no error bars at the end of {}: {}", names.join(", "), stages[0].1)
+    pub fn lacking(&self) -> Vec<String> {
+        let line = |stages: &[WithoutBars]| {
+            let names: Vec<&str> = stages.iter().map(|stage| stage.name.as_str()).collect();
+            format!("no error bars at the end of {}: {}", names.join(", "), stages[0].why)
         };
-        let after = self.after_steady.map(|stage| of_the_way(&stage_name(stage), "have no error bars"));
-        alike.map(line).chain(after).collect()
+        let after = self.after_steady.as_ref().map(|stage| of_the_way(stage, "have no error bars"));
+        self.record.without.chunk_by(|one, other| one.why == other.why).map(line).chain(after).collect()
     }
-
-    /// The same for programs. A bar of null: the number has no limit.
-    pub fn to_json(&self, stage_name: impl Fn(usize) -> String) -> Value {
-        let stage = |bars: &Bars| {
-            let mut value = json!({ "stage": bars.stage, "name": stage_name(bars.stage) });
-            for Bar { quantity, value: number, bar } in &bars.bars {
-                let number = if quantity.has_components() { json!(number) } else { json!(number[0]) };
-                value[quantity.name()] = json!({ "value": number, "error_bar": bar });
-            }
-            value
-        };
-        json!({
-            "auxiliary": { "cells": self.cells, "increments": self.increments, "wall_s": self.wall_s },
-            "stages": self.bars.iter().map(stage).collect::<Vec<_>>(),
-            "without": self.without.iter().map(|(stage, why)| json!({ "stage": stage, "name": stage_name(*stage), "why": why })).collect::<Vec<_>>(),
-        })
-    }
-}
-
-/// The kind of the unit of a quantity.
-fn kind(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::MaxPressure => "pressure",
-        Quantity::Approach | Quantity::Shift | Quantity::MaxWornDepth => "length",
-        Quantity::ContactArea | Quantity::StickArea => "length^2",
-        Quantity::DissipatedEnergy => "force x length",
-        Quantity::Creepage => "",
-        Quantity::Spin => "1/length",
-        Quantity::RollingFriction => "force",
-        Quantity::WornVolume => "length^3",
-    }
-}
-
-/// What a component of a motion vanishes beside: the approach; of a creepage, which is a ratio, one.
-fn beside(bars: &Bars, quantity: Quantity) -> f64 {
-    match bars.of(Quantity::Approach) {
-        Some(approach) if quantity == Quantity::Shift => approach.value[0].abs(),
-        _ => 1.0,
-    }
-}
-
-/// A component with its bar, both zero where they vanish in the rounding of what they are beside.
-fn component(bar: &Bar, axis: usize, beside: f64) -> Cell {
-    let above_rounding = |value: f64| if value.abs() <= 1e-12 * beside { 0.0 } else { value };
-    (above_rounding(bar.value[axis]), bar.bar.map(above_rounding))
 }
 
 /// The radius of a circle of an area, with the bar that follows from the area's.
-fn radius(area: &Bar) -> Cell {
-    let radius = (area.value[0] / PI).sqrt();
-    (radius, area.bar.filter(|_| radius > 0.0).map(|bar| bar / (2.0 * PI * radius)))
+fn radius((area, bar): Cell) -> Cell {
+    let radius = (area / PI).sqrt();
+    (radius, bar.filter(|_| radius > 0.0).map(|bar| bar / (2.0 * PI * radius)))
 }
 
 /// `value ± bar`.

@@ -98,6 +98,11 @@ impl From<RunError> for Failure {
 }
 
 impl Failure {
+    /// A call that cannot be followed: what, and what to do instead.
+    pub fn call(what: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::Call(what.into(), help.into())
+    }
+
     /// The exit code.
     pub fn code(&self) -> u8 {
         match self {
@@ -213,7 +218,7 @@ impl From<ResultsError> for Failure {
     fn from(error: ResultsError) -> Self {
         match error {
             ResultsError::Case(error) => Self::Case(error),
-            ResultsError::Refused(what, help) => Self::Call(what, help),
+            ResultsError::Refused(what, help) => Self::call(what, help),
             ResultsError::Memory(error) => Self::Memory(error),
             ResultsError::Unwritten(unwritten) => Self::Unwritten(unwritten),
             ResultsError::Defect(what) => Self::Defect(what),

@@ -39,17 +39,14 @@ pub fn figure_in(units: Option<&Units>, value: f64, kind: &str) -> String {
     figure(value) + &Units::after(units, kind, Dimension::Plane)
 }
 
-/// The unit of a kind of quantity as pictures and pages write it, where the case declares units and the quantity has one of them; loads of a
-/// line contact are those of a unit of length.
-pub fn unit_of(units: Option<&Units>, kind: &str, dimension: Dimension) -> Option<String> {
-    let unit = Units::after(units, kind, dimension);
-    let unit = unit.trim_start();
-    (!unit.is_empty()).then(|| unit.replace("^2", "²").replace("^3", "³"))
-}
-
-/// The same for a number that only matters beside another: what vanishes in the rounding of `scale` is shown as zero.
+/// A number that only matters beside another: what vanishes in the rounding of `scale` is shown as zero.
 pub fn figure_beside(value: f64, scale: f64) -> String {
     if value.abs() <= 1e-12 * scale.abs() { "0".to_owned() } else { figure(value) }
+}
+
+/// A share in percent.
+pub fn percent(share: f64) -> String {
+    if share.is_finite() { format!("{:.1} %", 100.0 * share) } else { "–".to_owned() }
 }
 
 /// A count with its noun.

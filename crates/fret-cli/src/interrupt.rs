@@ -6,10 +6,6 @@ use std::sync::Once;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use fret_core::history::{KeptFields, StepRecord};
-use fret_core::model::MirroredState;
-use fret_core::run::{Iteration, Observer};
-
 use crate::failure::INTERRUPTED;
 use crate::terminal;
 
@@ -83,36 +79,6 @@ mod system {
 /// Whether somebody asked to stop.
 pub fn is_asked() -> bool {
     ASKED.load(Ordering::Relaxed)
-}
-
-/// Stops a run when somebody asks to, and hears nothing else.
-pub struct Listener;
-
-impl Observer for Listener {
-    fn iterated(&mut self, _: &Iteration) -> ControlFlow<()> {
-        go_on()
-    }
-
-    fn solved(&mut self, _: &StepRecord, _: MirroredState<'_>, _: Option<&KeptFields>) -> ControlFlow<()> {
-        go_on()
-    }
-
-    fn leaves_fields(&self) -> bool {
-        false
-    }
-}
-
-/// The same for a history that is asked for its fields when it is solved.
-pub struct Keeper;
-
-impl Observer for Keeper {
-    fn iterated(&mut self, _: &Iteration) -> ControlFlow<()> {
-        go_on()
-    }
-
-    fn solved(&mut self, _: &StepRecord, _: MirroredState<'_>, _: Option<&KeptFields>) -> ControlFlow<()> {
-        go_on()
-    }
 }
 
 /// Whether to go on.

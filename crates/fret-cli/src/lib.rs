@@ -63,7 +63,7 @@ pub fn command_line(words: impl IntoIterator<Item = OsString>) -> u8 {
 fn dispatch(arguments: &Arguments) -> Result<(), Told> {
     let as_json = arguments.json;
     let since = Instant::now();
-    let answer = match &arguments.verb {
+    let (answer, manner) = match &arguments.verb {
         // these tell more than an answer, or another kind of one
         Verb::Sweep(arguments) => return commands::sweep::sweep(arguments, as_json, since),
         Verb::Run(arguments) => return commands::run::run(arguments, as_json, since),
@@ -71,33 +71,38 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         Verb::Schema => return Ok(commands::schema::schema()?),
         Verb::Completions { shell } => return Ok(commands::shells::completions(*shell)?),
         Verb::Man { out: None } => return Ok(commands::shells::page_of_all()?),
-        Verb::Extremes { .. } => Err(Failure::Call(
-            "`fret extremes` is no command any more".to_owned(),
-            "run `cargo xtask extremes` in the repository; the page `Stiff and extreme cases` has its table"
-                .to_owned(),
-        )),
-        Verb::Man { out: Some(out) } => commands::shells::pages(out),
-        Verb::Check(arguments) => commands::check::check(arguments),
-        Verb::Plan(arguments) => commands::plan::plan(arguments),
-        Verb::Init(arguments) => commands::init::init(arguments),
-        Verb::Explain { warning } => commands::explain::explain(warning.as_deref()),
-        Verb::Report(arguments) => commands::report::report(arguments),
-        Verb::Export(arguments) => commands::export::export(arguments),
-        Verb::Study(arguments) => commands::study::study(arguments),
-        Verb::Stress(arguments) => commands::stress::stress(arguments),
-        Verb::CompareScar(arguments) => commands::compare_scar::compare_scar(arguments),
-        Verb::Heat(arguments) => commands::heat::heat(arguments),
-        Verb::Identify(arguments) => commands::identify::identify(arguments),
-        Verb::Sensitivity(arguments) => commands::sensitivity::sensitivity(arguments),
-    }?;
-    Ok(arguments.verb.manner().unwrap_or(&Manner::default()).tell(&answer, as_json, since)?)
+        Verb::Extremes { .. } => {
+            return Err(Failure::call(
+                "`fret extremes` is no command any more",
+                "run `cargo xtask extremes` in the repository; the page `Stiff and extreme cases` has its table",
+            ))?;
+        }
+        Verb::Man { out: Some(out) } => (commands::shells::pages(out), None),
+        Verb::Explain { warning } => (commands::explain::explain(warning.as_deref()), None),
+        Verb::Check(arguments) => (commands::check::check(arguments), Some(&arguments.manner)),
+        Verb::Plan(arguments) => (commands::plan::plan(arguments), Some(&arguments.manner)),
+        Verb::Init(arguments) => (commands::init::init(arguments), Some(&arguments.manner)),
+        Verb::Report(arguments) => (commands::report::report(arguments), Some(&arguments.manner)),
+        Verb::Export(arguments) => (commands::export::export(arguments), Some(&arguments.manner)),
+        Verb::Study(arguments) => (commands::study::study(arguments), Some(&arguments.manner)),
+        Verb::Stress(arguments) => (commands::stress::stress(arguments), Some(&arguments.manner)),
+        Verb::CompareScar(arguments) => {
+            (commands::compare_scar::compare_scar(arguments), Some(&arguments.manner))
+        }
+        Verb::Heat(arguments) => (commands::heat::heat(arguments), Some(&arguments.manner)),
+        Verb::Identify(arguments) => (commands::identify::identify(arguments), Some(&arguments.manner)),
+        Verb::Sensitivity(arguments) => {
+            (commands::sensitivity::sensitivity(arguments), Some(&arguments.manner))
+        }
+    };
+    Ok(manner.unwrap_or(&Manner::default()).tell(&answer?, as_json, since)?)
 }
 
 /// Help and version are answers; anything else clap objects to is a refusal, for which clap's own exit code 2 is taken.
 fn asked_for_help_or_mistaken(error: &clap::Error) -> u8 {
     let is_answer = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
     if !is_answer && std::env::args_os().any(|argument| argument == "--json") {
-        let failure = Failure::Call(error.to_string().trim_end().to_owned(), String::new());
+        let failure = Failure::call(error.to_string().trim_end(), "");
         let _ = terminal::answer_in_json(&serde_json::json!(failure.record()));
     }
     // A stream that is closed cannot be told so.

@@ -24,18 +24,13 @@ pub fn loop_numbers(cycle: &CycleRecord) -> [LoopNumber; 5] {
 }
 
 /// The sliding condition of a cycle, in words.
-pub fn sliding_condition(cycle: &CycleRecord) -> &'static str {
-    cycle.regime.map_or("-", regime)
+pub fn sliding_condition(cycle: &CycleRecord) -> String {
+    cycle.regime.map_or_else(|| "-".to_owned(), regime)
 }
 
 /// A sliding condition in words.
-pub fn regime(regime: CycleRegime) -> &'static str {
-    match regime {
-        CycleRegime::FullStick => "full stick",
-        CycleRegime::PartialSlip => "partial slip",
-        CycleRegime::Mixed => "mixed",
-        CycleRegime::GrossSlip => "gross slip",
-    }
+pub fn regime(regime: CycleRegime) -> String {
+    regime.name().replace('_', " ")
 }
 
 /// The running condition of all cycles of a stage, in words.

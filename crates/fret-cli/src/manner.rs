@@ -8,6 +8,8 @@ use clap::Args;
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::model::MirroredState;
 use fret_core::run::{Iteration, Observer};
+use serde::Serialize;
+use serde_json::json;
 
 use crate::failure::{Failure, Unwritten};
 use crate::figures::{duration, figure};
@@ -57,6 +59,14 @@ impl Manner {
         Ok(())
     }
 
+    /// The same of one that programs read.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn write_json(&self, path: &Path, answer: &impl Serialize) -> Result<(), Unwritten> {
+        self.write(path, format!("{:#}\n", json!(answer)).as_bytes())
+    }
+
     /// Tells of a file of the answer, or of its folder, written by others.
     pub fn wrote(&self, path: &Path) {
         self.step(|| format!("written: {}", path.display()));
@@ -68,7 +78,7 @@ impl Manner {
     /// When standard output cannot be written.
     pub fn tell(&self, answer: &Answer, as_json: bool, since: Instant) -> Result<(), Failure> {
         if as_json || !self.quiet {
-            answer.tell(as_json)?;
+            if as_json { terminal::answer_in_json(&answer.record)? } else { terminal::answer(&answer.text)? }
         }
         self.done(since);
         Ok(())
@@ -97,8 +107,7 @@ pub fn refuse_other_file(path: &Path, extensions: &[&str]) -> Result<(), Failure
     } else {
         return Ok(());
     };
-    let help = "choose another place with --out FILE".to_owned();
-    Err(Failure::Call(format!("{}: {found}", path.display()), help))
+    Err(Failure::call(format!("{}: {found}", path.display()), "choose another place with --out FILE"))
 }
 
 /// The folder of an answer about a run: the one that is asked for, which an answer of this kind marks by a file, or one below the results.
@@ -129,9 +138,33 @@ pub fn increment_line(record: &StepRecord, width: usize, place: &str) -> String 
 }
 
 /// Stops a run when somebody asks to, and tells every increment where all steps are wanted.
-pub struct Steps<'a>(pub &'a Manner);
+pub struct Listener<'a> {
+    tells: &'a Manner,
+    /// Whether the history is asked for its fields when it is solved.
+    keeps: bool,
+}
 
-impl Observer for Steps<'_> {
+impl<'a> Listener<'a> {
+    /// Tells as the manner says.
+    pub fn telling(tells: &'a Manner) -> Self {
+        Self { tells, keeps: false }
+    }
+}
+
+impl Listener<'static> {
+    /// Tells nothing.
+    pub fn silent() -> Self {
+        static SILENT: Manner = Manner::SILENT;
+        Self::telling(&SILENT)
+    }
+
+    /// The same for a history that is asked for its fields.
+    pub fn keeping() -> Self {
+        Self { keeps: true, ..Self::silent() }
+    }
+}
+
+impl Observer for Listener<'_> {
     fn iterated(&mut self, _: &Iteration) -> ControlFlow<()> {
         go_on()
     }
@@ -142,11 +175,11 @@ impl Observer for Steps<'_> {
         _: MirroredState<'_>,
         _: Option<&KeptFields>,
     ) -> ControlFlow<()> {
-        self.0.step(|| increment_line(record, 0, ""));
+        self.tells.step(|| increment_line(record, 0, ""));
         go_on()
     }
 
     fn leaves_fields(&self) -> bool {
-        false
+        self.keeps
     }
 }

@@ -16,7 +16,7 @@ pub fn paragraph<M, H>(
 ) -> String {
     let Plan { case, grid, coupling, .. } = plan;
     let ([nx, ny], [width, depth]) = (grid.cells(), grid.size());
-    let unit = case.units.as_ref().map_or_else(String::new, |units| format!(" {}", units.length));
+    let unit = Units::after(case.units.as_ref(), "length", Dimension::Plane);
     let commit = match commit {
         "" | "unknown" => String::new(),
         commit => format!(" (commit {})", commit.chars().take(12).collect::<String>()),

@@ -25,7 +25,11 @@ const TITLE_LETTERS: usize = 24;
 /// A face for the run.
 #[derive(Debug)]
 pub struct Progress {
-    face: Face,
+    /// For a person at a terminal; otherwise it is hidden.
+    bar: ProgressBar,
+    is_live: bool,
+    /// Whether there are lines in its place.
+    is_plain: bool,
     /// Planned increments.
     increments: usize,
     /// Planned increments that were behind the run before it went on.
@@ -37,50 +41,28 @@ pub struct Progress {
     tells_all: bool,
 }
 
-#[derive(Debug)]
-enum Face {
-    Quiet,
-    Plain,
-    Live(ProgressBar),
-}
-
 impl Progress {
     /// The face that fits: quiet when asked for, live for a terminal, plain otherwise.
     pub fn new(manner: &Manner, title: &str, tally: &Tally) -> Self {
         let (increments, passed_before) = (tally.advance.planned(), tally.advance.passed());
-        let face = match (manner.quiet, terminal::is_watched()) {
-            (true, _) => Face::Quiet,
-            (false, true) => Face::Live(live_bar(title, increments)),
-            (false, false) => Face::Plain,
-        };
-        let now = Instant::now();
-        let tenths = passed_before * 10 / increments.max(1);
-        let progress = Self {
-            face,
+        let (is_live, now) = (!manner.quiet && terminal::is_watched(), Instant::now());
+        Self {
+            bar: if is_live { live_bar(title, increments, passed_before) } else { ProgressBar::hidden() },
+            is_live,
+            is_plain: !manner.quiet && !is_live,
             increments,
             passed_before,
             started: now,
             last_shown: now,
-            tenths,
+            tenths: passed_before * 10 / increments.max(1),
             tells_all: manner.verbose,
-        };
-        if let Face::Live(bar) = &progress.face {
-            bar.set_position(passed_before as u64);
-            bar.reset_eta();
-            bar.set_message("preparing the operators");
-            bar.enable_steady_tick(Duration::from_millis(120));
         }
-        progress
     }
 
     /// An iteration was done.
     pub fn iterated(&mut self, iteration: &Iteration, tally: &Tally) {
-        let pause = match self.face {
-            Face::Quiet => return,
-            Face::Live(_) => LIVE_PAUSE,
-            Face::Plain => self.plain_pause(),
-        };
-        if self.last_shown.elapsed() < pause {
+        let pause = if self.is_live { LIVE_PAUSE } else { self.plain_pause() };
+        if !(self.is_live || self.is_plain) || self.last_shown.elapsed() < pause {
             return;
         }
         self.last_shown = Instant::now();
@@ -90,23 +72,22 @@ impl Progress {
             "{stage}  iteration {}  residual {:.1e} (goal {:.1e})",
             iteration.iteration, iteration.residual, iteration.tolerance
         );
-        match &self.face {
-            Face::Live(bar) => bar.set_message(printable(&standing).into_owned()),
-            _ => self.line(&format!("increment {:>1$}  {standing}", iteration.increment, self.width())),
+        if self.is_live {
+            self.bar.set_message(printable(&standing).into_owned());
+        } else {
+            self.line(&format!("increment {:>1$}  {standing}", iteration.increment, self.width()));
         }
     }
 
     /// An increment is solved and counted.
     pub fn solved(&mut self, record: &StepRecord, tally: &Tally) {
         let passed = tally.advance.passed();
-        if let Face::Live(bar) = &self.face {
-            bar.set_position(passed as u64);
-        }
+        self.bar.set_position(passed as u64);
         let stage = tally.stages.get(record.stage);
         let ends_stage = stage.is_some_and(|stage| stage.last == record.increment);
         let tenths = passed * 10 / self.increments.max(1);
         let due = tenths > self.tenths || self.last_shown.elapsed() >= self.plain_pause();
-        if !(ends_stage || self.tells_all || (matches!(self.face, Face::Plain) && due)) {
+        if !(ends_stage || self.tells_all || (self.is_plain && due)) {
             return;
         }
         self.tenths = tenths;
@@ -120,9 +101,7 @@ impl Progress {
     /// A cycle is over, and counted, with those it stands for.
     pub fn cycled(&mut self, record: &CycleRecord, tally: &Tally) {
         let passed = tally.advance.passed();
-        if let Face::Live(bar) = &self.face {
-            bar.set_position(passed as u64);
-        }
+        self.bar.set_position(passed as u64);
         let tenths = passed * 10 / self.increments.max(1);
         if tenths > self.tenths && (record.stands_for > 1 || record.steady) {
             self.tenths = tenths;
@@ -149,16 +128,14 @@ impl Progress {
 
     /// The run is over, in whatever way: the terminal belongs to others again.
     pub fn end(&self) {
-        if let Face::Live(bar) = &self.face {
-            bar.finish_and_clear();
-        }
+        self.bar.finish_and_clear();
     }
 
     fn line(&self, text: &str) {
-        match &self.face {
-            Face::Quiet => {}
-            Face::Plain => terminal::say(text),
-            Face::Live(bar) => bar.println(printable(text)),
+        if self.is_plain {
+            terminal::say(text);
+        } else {
+            self.bar.println(printable(text)); // which a hidden one does not
         }
     }
 
@@ -184,7 +161,7 @@ impl Progress {
     }
 }
 
-fn live_bar(title: &str, increments: usize) -> ProgressBar {
+fn live_bar(title: &str, increments: usize, passed: usize) -> ProgressBar {
     let colour = if terminal::errors_in_colour() { ":.cyan/dim" } else { "" };
     let template = format!(
         "{{prefix}}  {{wide_bar{colour}}} {{pos}}/{{len}}  {{elapsed_precise}} < {{eta_precise}}\n  {{spinner}} {{msg}}"
@@ -192,7 +169,12 @@ fn live_bar(title: &str, increments: usize) -> ProgressBar {
 
     // The template is ours; if it were ever wrong, indicatif's own style serves as well.
     let style = ProgressStyle::with_template(&template).unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::with_draw_target(Some(increments as u64), ProgressDrawTarget::stderr())
+    let bar = ProgressBar::with_draw_target(Some(increments as u64), ProgressDrawTarget::stderr())
         .with_style(style.progress_chars("━╸─"))
-        .with_prefix(shortened(&printable(title), TITLE_LETTERS))
+        .with_prefix(shortened(&printable(title), TITLE_LETTERS));
+    bar.set_position(passed as u64);
+    bar.reset_eta();
+    bar.set_message("preparing the operators");
+    bar.enable_steady_tick(Duration::from_millis(120));
+    bar
 }

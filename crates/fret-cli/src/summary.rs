@@ -15,13 +15,13 @@ use serde_json::{Value, json};
 use crate::estimate::Estimate;
 use crate::failure::Failure;
 use crate::figures::{
-    LONGEST_TITLE, NAMES, counted, duration, figure, figure_beside, shortened, side_by_side,
+    LONGEST_TITLE, NAMES, counted, duration, figure, figure_beside, figure_in, percent, shortened,
+    side_by_side,
 };
 use crate::loop_numbers::{loop_numbers, sliding_condition};
 use crate::methods::paragraph;
 use crate::study::words::GROWS;
-use fret_results::Tally;
-use fret_results::commit::COMMIT;
+use fret_results::{Tally, commit::COMMIT};
 
 /// Stages that stand side by side in the table.
 const MOST_COLUMNS: usize = 4;
@@ -30,23 +30,32 @@ const MOST_CYCLES: usize = 6;
 /// Width of a column of numbers.
 const COLUMN: usize = 15;
 
+/// How a run ended.
+#[derive(Debug)]
+pub struct Ended {
+    /// What it came to.
+    pub tally: Tally,
+    /// What about its numbers may mislead.
+    pub warnings: Vec<Warning>,
+    /// Time of the whole run [s].
+    pub wall_s: f64,
+    /// Error bars, where they were asked for and could be had.
+    pub estimate: Option<Estimate>,
+    /// Why early, if it did.
+    pub failure: Option<Failure>,
+}
+
 /// A run that is over.
 #[derive(Debug)]
 pub struct Summary<'a> {
     /// What was planned.
     pub plan: &'a Plan,
-    /// What it came to.
-    pub tally: &'a Tally,
-    /// What about its numbers may mislead.
-    pub warnings: &'a [Warning],
     /// Where the results are.
     pub folder: &'a Path,
-    /// Time of the whole run [s].
-    pub wall_s: f64,
     /// Threads computed with.
     pub threads: usize,
-    /// Error bars, where they were asked for and could be had.
-    pub estimate: Option<&'a Estimate>,
+    /// How it ended.
+    pub ended: &'a Ended,
 }
 
 /// A row of the table: its name, the kind of its unit, what it says of the end of a stage.
@@ -60,7 +69,7 @@ impl Summary<'_> {
         if !self.plan.case.title.is_empty() {
             let _ = writeln!(table, "{}\n", shortened(&self.plan.case.title, LONGEST_TITLE));
         }
-        let ends = &self.tally.stage_ends;
+        let ends = &self.ended.tally.stage_ends;
         let shown = &ends[ends.len().saturating_sub(MOST_COLUMNS)..];
         let names = shown.iter().map(|record| self.stage_name(record.stage));
         side_by_side(&mut table, "after stage", COLUMN, names.map(|name| shortened(name, COLUMN - 2)));
@@ -92,7 +101,7 @@ impl Summary<'_> {
         }
         table.push('\n');
         self.cycles(&mut table);
-        if let Some(worn) = &self.tally.worn_through {
+        if let Some(worn) = &self.ended.tally.worn_through {
             let [x, y] = worn.place.map(|place| self.length(place));
             let after = counted(worn.cycles, "cycle");
             let what = match worn.to {
@@ -107,15 +116,16 @@ impl Summary<'_> {
         }
         let volume =
             |value: f64| figure(value) + &Units::after(self.plan.case.units.as_ref(), "length^3", dimension);
-        for (name, volumes) in self.tally.worn_by_layer.iter().flat_map(|worn| volumes_by_layer(worn, volume))
+        for (name, volumes) in
+            self.ended.tally.worn_by_layer.iter().flat_map(|worn| volumes_by_layer(worn, volume))
         {
             let _ = writeln!(table, "{name:<NAMES$}{volumes}");
         }
-        if let Some(estimate) = self.estimate {
-            let _ = writeln!(table, "{}\n", estimate.table(|stage| self.stage_name(stage).to_owned()));
+        if let Some(estimate) = &self.ended.estimate {
+            let _ = writeln!(table, "{}\n", estimate.table());
         }
         let residual =
-            format!("{:.1e} (tolerance {:.1e})", self.tally.largest_residual, self.plan.case.tolerance);
+            format!("{:.1e} (tolerance {:.1e})", self.ended.tally.largest_residual, self.plan.case.tolerance);
         if let Some(datum) = self.plan.datum {
             let _ = writeln!(
                 table,
@@ -128,15 +138,15 @@ impl Summary<'_> {
             let _ = writeln!(table, "{:<NAMES$}none: {GROWS}", "limit of max pressure");
         }
         for (name, value) in [
-            ("increments", self.tally.solved.to_string()),
+            ("increments", self.ended.tally.solved.to_string()),
             ("max residual", residual),
-            ("convolutions", self.tally.work.convolutions.to_string()),
-            ("wall time", format!("{} on {}", duration(self.wall_s), counted(self.threads, "thread"))),
+            ("convolutions", self.ended.tally.work.convolutions.to_string()),
+            ("wall time", format!("{} on {}", duration(self.ended.wall_s), counted(self.threads, "thread"))),
             ("results", self.folder.display().to_string()),
         ] {
             let _ = writeln!(table, "{name:<NAMES$}{value}");
         }
-        for warning in self.warnings {
+        for warning in &self.ended.warnings {
             let _ = writeln!(table, "{}", warning_line(warning));
         }
         table.truncate(table.trim_end().len());
@@ -146,71 +156,61 @@ impl Summary<'_> {
     fn readings(&self) -> Vec<Reading> {
         let dimension = self.plan.grid.dimension();
         let mut readings: Vec<Reading> = vec![
-            ("normal force", "force", |record| figure(record.normal_force)),
-            ("approach", "length", |record| figure(record.approach)),
-            ("max pressure", "pressure", |record| figure(record.max_pressure)),
+            ("normal force", "force", |of| figure(of.normal_force)),
+            ("approach", "length", |of| figure(of.approach)),
+            ("max pressure", "pressure", |of| figure(of.max_pressure)),
         ];
         if self.plan.case.counts_mean_gap() {
-            readings[1] = ("mean gap", "length", |record| record.mean_gap.map_or("-".to_owned(), figure));
+            readings[1] = ("mean gap", "length", |of| of.mean_gap.map_or("-".to_owned(), figure));
         }
         match dimension {
             Dimension::Plane => readings.extend::<[Reading; 2]>([
-                ("contact area", "length^2", |record| figure(record.contact_area)),
-                ("radius of a circle of that area", "length", |record| {
-                    figure(Dimension::Plane.radius(record.contact_area))
+                ("contact area", "length^2", |of| figure(of.contact_area)),
+                ("radius of a circle of that area", "length", |of| {
+                    figure(Dimension::Plane.radius(of.contact_area))
                 }),
             ]),
             Dimension::Line => {
                 readings[0].0 = "normal force per unit length";
-                readings.push(("contact width", "length^2", |record| figure(record.contact_area)));
+                readings.push(("contact width", "length^2", |of| figure(of.contact_area)));
             }
         }
         if self.plan.coupling != Coupling::Frictionless {
             readings.extend::<[Reading; 7]>([
-                ("tangential force x", "force", |record| {
-                    figure_beside(record.tangential_force[0], record.normal_force)
-                }),
-                ("tangential force y", "force", |record| {
-                    figure_beside(record.tangential_force[1], record.normal_force)
-                }),
-                ("shift x", "length", |record| figure_beside(record.shift[0], record.approach)),
-                ("shift y", "length", |record| figure_beside(record.shift[1], record.approach)),
-                ("max shear", "pressure", |record| figure(record.max_shear)),
-                ("stick fraction of the contact", "", |record| {
-                    stick_share(record).map_or("-".to_owned(), percent)
-                }),
-                ("dissipated energy so far", "force x length", |record| figure(record.dissipated_energy)),
+                ("tangential force x", "force", |of| figure_beside(of.tangential_force[0], of.normal_force)),
+                ("tangential force y", "force", |of| figure_beside(of.tangential_force[1], of.normal_force)),
+                ("shift x", "length", |of| figure_beside(of.shift[0], of.approach)),
+                ("shift y", "length", |of| figure_beside(of.shift[1], of.approach)),
+                ("max shear", "pressure", |of| figure(of.max_shear)),
+                ("stick fraction of the contact", "", |of| stick_share(of).map_or("-".to_owned(), percent)),
+                ("dissipated energy so far", "force x length", |of| figure(of.dissipated_energy)),
             ]);
         }
         if self.plan.case.friction_evolution.is_some() {
-            readings.push(("mean friction coefficient", "", |record| figure(record.friction_coefficient)));
+            readings.push(("mean friction coefficient", "", |of| figure(of.friction_coefficient)));
         }
         if self.plan.case.wear.is_some() {
-            readings.push(("worn volume so far", "length^3", |record| figure(record.worn_volume)));
-            readings.push(("max wear depth", "length", |record| figure(record.max_worn_depth)));
+            readings.push(("worn volume so far", "length^3", |of| figure(of.worn_volume)));
+            readings.push(("max wear depth", "length", |of| figure(of.max_worn_depth)));
         }
         let stages = &self.plan.case.stages;
         if stages.iter().any(|stage| stage.twist.is_some()) {
-            readings.push(("torsional moment", "force x length", |record| figure(record.twist_moment)));
-            readings.push(("twist", "rad", |record| figure(record.twist)));
+            readings.push(("torsional moment", "force x length", |of| figure(of.twist_moment)));
+            readings.push(("twist", "rad", |of| figure(of.twist)));
         }
         if stages.iter().any(Stage::tilts) {
             readings.extend::<[Reading; 4]>([
-                ("tilt moment x", "force x length", |record| {
-                    figure_beside(record.tilt_moment[0], record.normal_force)
-                }),
-                ("tilt moment y", "force x length", |record| {
-                    figure_beside(record.tilt_moment[1], record.normal_force)
-                }),
-                ("tilt x", "rad", |record| figure(record.tilt[0])),
-                ("tilt y", "rad", |record| figure(record.tilt[1])),
+                ("tilt moment x", "force x length", |of| figure_beside(of.tilt_moment[0], of.normal_force)),
+                ("tilt moment y", "force x length", |of| figure_beside(of.tilt_moment[1], of.normal_force)),
+                ("tilt x", "rad", |of| figure(of.tilt[0])),
+                ("tilt y", "rad", |of| figure(of.tilt[1])),
             ]);
         }
         if stages.iter().any(Stage::stretches) {
             readings.extend::<[Reading; 3]>([
-                ("bulk stress x, lower", "pressure", |record| figure(record.bulk_stress[0][0])),
-                ("bulk stress x, upper", "pressure", |record| figure(record.bulk_stress[1][0])),
-                ("work of the bulk stress so far", "force x length", |record| figure(record.bulk_work)),
+                ("bulk stress x, lower", "pressure", |of| figure(of.bulk_stress[0][0])),
+                ("bulk stress x, upper", "pressure", |of| figure(of.bulk_stress[1][0])),
+                ("work of the bulk stress so far", "force x length", |of| figure(of.bulk_work)),
             ]);
         }
         readings
@@ -218,21 +218,17 @@ impl Summary<'_> {
 
     /// A length with its unit.
     fn length(&self, value: f64) -> String {
-        self.plan
-            .case
-            .units
-            .as_ref()
-            .map_or_else(|| figure(value), |units| format!("{} {}", figure(value), units.length))
+        figure_in(self.plan.case.units.as_ref(), value, "length")
     }
 
     /// Cycles of a stage that are over, with those that solved ones stand for, and those that were solved.
     fn cycles_of(&self, stage: usize) -> Option<[usize; 2]> {
-        let last = self.tally.cycles.iter().rfind(|cycle| cycle.stage == stage)?;
+        let last = self.ended.tally.cycles.iter().rfind(|cycle| cycle.stage == stage)?;
         Some([last.last_cycle, last.cycle])
     }
 
     fn cycles(&self, table: &mut String) {
-        let energies = &self.tally.cycles;
+        let energies = &self.ended.tally.cycles;
         let skipped = energies.len().saturating_sub(MOST_CYCLES);
         let mut line = |energy: &CycleRecord| {
             let name = match energy.stands_for {
@@ -265,29 +261,25 @@ impl Summary<'_> {
         let stage = self.stage_name(cycle.stage);
         let _ = writeln!(table, "in cycle {} of {stage}:", cycle.last_cycle);
         let mut row = |name: &str, value: String| side_by_side(table, name, COLUMN, std::iter::once(value));
-        row("sliding condition", sliding_condition(cycle).to_owned());
+        row("sliding condition", sliding_condition(cycle));
         for (name, kind, value) in loop_numbers(cycle) {
             row(&self.plan.case.heading(name, kind), value.map_or("-".to_owned(), figure));
         }
     }
 
-    /// The same for programs; `failure` says why the run ended early, if it did.
-    pub fn to_json(&self, failure: Option<&Failure>) -> Value {
+    /// The same for programs.
+    pub fn to_json(&self) -> Value {
+        let failure = self.ended.failure.as_ref();
         let dimension = self.plan.grid.dimension();
-        let stages: Vec<StageAnswer<'_>> = self
-            .tally
-            .stage_ends
-            .iter()
-            .map(|record| StageAnswer {
-                record,
-                name: self.stage_name(record.stage),
-                equivalent_radius: (dimension == Dimension::Plane)
-                    .then(|| dimension.radius(record.contact_area)),
-                stick_share: stick_share(record),
-            })
-            .collect();
+        let end = |record| StageAnswer {
+            record,
+            name: self.stage_name(record.stage),
+            equivalent_radius: (dimension == Dimension::Plane).then(|| dimension.radius(record.contact_area)),
+            stick_share: stick_share(record),
+        };
+        let stages: Vec<StageAnswer<'_>> = self.ended.tally.stage_ends.iter().map(end).collect();
         let named = |cycle| CycleAnswer { cycle, stage: self.stage_name(cycle.stage) };
-        let cycles: Vec<CycleAnswer<'_>> = self.tally.cycles.iter().map(named).collect();
+        let cycles: Vec<CycleAnswer<'_>> = self.ended.tally.cycles.iter().map(named).collect();
         json!({
             "status": failure.map_or("solved", Failure::status),
             "message": failure.map(Failure::message),
@@ -297,29 +289,29 @@ impl Summary<'_> {
             "datum": self.plan.datum,
             "stages": stages,
             "cycles": cycles,
-            "worn_through": self.tally.worn_through,
-            "worn_by_layer": self.tally.worn_by_layer,
-            "warnings": self.warnings,
-            "increments": self.tally.solved,
+            "worn_through": self.ended.tally.worn_through,
+            "worn_by_layer": self.ended.tally.worn_by_layer,
+            "warnings": self.ended.warnings,
+            "increments": self.ended.tally.solved,
             "increments_planned": self.plan.increments,
-            "largest_residual": self.tally.largest_residual,
+            "largest_residual": self.ended.tally.largest_residual,
             "tolerance": self.plan.case.tolerance,
-            "work": self.tally.work,
-            "wall_s": self.wall_s,
+            "work": self.ended.tally.work,
+            "wall_s": self.ended.wall_s,
             "threads": self.threads,
             "results": self.folder.display().to_string(),
             "methods": failure.is_none().then(|| self.methods()),
-            "error_bars": self.estimate.map(|estimate| estimate.to_json(|stage| self.stage_name(stage).to_owned())),
+            "error_bars": self.ended.estimate.as_ref().map(|estimate| &estimate.record),
         })
     }
 
     /// A paragraph for the methods section of a paper.
     pub fn methods(&self) -> String {
-        paragraph(self.plan, self.tally.solved, (env!("CARGO_PKG_VERSION"), COMMIT))
+        paragraph(self.plan, self.ended.tally.solved, (env!("CARGO_PKG_VERSION"), COMMIT))
     }
 
     fn stage_name(&self, stage: usize) -> &str {
-        self.tally.stages.get(stage).map_or("", |stage| stage.name.as_str())
+        self.ended.tally.stages.get(stage).map_or("", |stage| stage.name.as_str())
     }
 }
 
@@ -362,8 +354,4 @@ pub fn volumes_by_layer(worn: &WornByLayer, volume: impl Fn(f64) -> String) -> V
 /// Share of the cells in contact that stick; none when nothing touches.
 fn stick_share(record: &StepRecord) -> Option<f64> {
     (record.contact_cells > 0).then(|| record.stick_cells as f64 / record.contact_cells as f64)
-}
-
-fn percent(share: f64) -> String {
-    format!("{:.1} %", 100.0 * share)
 }

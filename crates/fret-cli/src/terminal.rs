@@ -27,20 +27,17 @@ impl Answer {
     pub fn new(record: Value, text: impl Into<String>) -> Self {
         Self { record, text: text.into() }
     }
-
-    /// Tells it to who asks.
-    ///
-    /// # Errors
-    /// When standard output cannot be written.
-    pub fn tell(&self, as_json: bool) -> Result<(), Failure> {
-        if as_json { answer_in_json(&self.record) } else { answer(&self.text) }
-    }
 }
 
 /// Writes an answer; what would steer a terminal is shown, not sent. A reader that has gone away (`fret plan case.toml | head -1`) is no failure.
 pub fn answer(text: &str) -> Result<(), Failure> {
+    to_standard_output(format!("{}\n", printable(text)).as_bytes())
+}
+
+/// Writes bytes as they are: for programs, which must not have them changed.
+pub fn to_standard_output(bytes: &[u8]) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
-    match writeln!(stdout, "{}", printable(text)).and_then(|()| stdout.flush()) {
+    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(Unwritten::at(Path::new("standard output"))(error).into())
         }

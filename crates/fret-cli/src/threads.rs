@@ -1,5 +1,7 @@
 //! Threads of a command: as many as asked for, or all that the machine has.
 
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
 use clap::Args;
 use fret_core::machine::threads::{self, ThreadsError};
 use rayon::ThreadPool;
@@ -38,7 +40,12 @@ pub fn check(number: usize) -> Result<(), Failure> {
 
 #[expect(clippy::needless_pass_by_value, reason = "for `map_err`")]
 fn refused(error: ThreadsError) -> Failure {
-    Failure::Call(error.to_string(), "--threads with a smaller number".to_owned())
+    Failure::call(error.to_string(), "--threads with a smaller number")
+}
+
+/// What threads share, also where one of them has ended in a panic.
+pub fn locked<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// A number of threads on the command line.

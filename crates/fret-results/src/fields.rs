@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use fret_core::history::{self, FIELDS};
 use fret_core::model::{Dimension, SurfaceGrid};
+use ndarray::Array2;
 use serde_json::Value;
 
 use crate::error::ResultsError;
@@ -28,22 +29,6 @@ pub struct Fields {
     grid: SurfaceGrid,
     /// Whether the chunks of fields end with a checksum.
     is_checked: bool,
-}
-
-/// One field, `values[i * ny + j]`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Field {
-    /// Cells along x and y.
-    pub cells: [usize; 2],
-    /// Values, y fastest; a zone is 0 open, 1 stick, 2 slip.
-    pub values: Vec<f64>,
-}
-
-impl Field {
-    /// Value of a cell.
-    pub fn at(&self, i: usize, j: usize) -> f64 {
-        self.values[i * self.cells[1] + j]
-    }
 }
 
 impl Fields {
@@ -126,23 +111,24 @@ impl Fields {
         self.names.contains(&name)
     }
 
-    /// A field of the increment at `position` of [`Fields::steps`].
+    /// A field `[i, j]` of the increment at `position` of [`Fields::steps`]; a zone is 0 open, 1 stick, 2 slip.
     ///
     /// # Errors
     /// When its file is missing, or not as it was written.
-    pub fn field(&self, name: &str, position: usize) -> Result<Field, ResultsError> {
-        let cells = self.cells();
+    pub fn field(&self, name: &str, position: usize) -> Result<Array2<f64>, ResultsError> {
         let file = self.path.join(chunk(&self.grid, name, position));
         let bytes = fs::read(&file)
             .map_err(|error| ResultsError::unusable(&file, &format!("cannot be read: {error}")))?;
         let bytes = checked(bytes, Some(bytes_of(&self.grid, name)), self.is_checked)
             .map_err(|what| ResultsError::unusable(&file, &what))?;
-        let values = if is_zone(name) { bytes.into_iter().map(f64::from).collect() } else { floats(&bytes) };
+        let values: Vec<f64> =
+            if is_zone(name) { bytes.into_iter().map(f64::from).collect() } else { floats(&bytes) };
         let none = |value: &f64| !value.is_finite() || is_zone(name) && *value > 2.0;
         if let Some(place) = values.iter().position(none) {
             return Err(ResultsError::unusable(&file, &format!("value {place} is none of a field")));
         }
-        Ok(Field { cells, values })
+        Array2::from_shape_vec(self.cells(), values)
+            .map_err(|error| ResultsError::unusable(&file, &error.to_string()))
     }
 
     /// Reads every field.

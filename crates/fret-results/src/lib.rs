@@ -32,7 +32,7 @@ mod zarr;
 pub use case_file::{Beside, CaseFile};
 pub use checkpoint_folder::{Head, Stored};
 pub use error::{ResultsError, Unwritten};
-pub use fields::{Field, Fields};
+pub use fields::Fields;
 pub use instruments::{ReadInstrument, read_instruments_by};
 pub use names::ERROR_BARS;
 pub use origin::{Origin, planned_from};

@@ -13,7 +13,7 @@ use fret_core::units::Units;
 use ndarray::Array2;
 
 use crate::error::ResultsError;
-use crate::fields::{Field, Fields};
+use crate::fields::Fields;
 use crate::history_table::cycles_of;
 use crate::names;
 use crate::record::read_record;
@@ -175,8 +175,7 @@ impl Results {
         if !self.fields.has(name) {
             return Ok(None);
         }
-        let Field { cells: [nx, ny], values } = self.fields.field(name, position)?;
-        Ok(Array2::from_shape_vec((nx, ny), values).ok())
+        self.fields.field(name, position).map(Some)
     }
 }
 

@@ -104,6 +104,12 @@ impl Table {
         self.column(name).get(row).copied().unwrap_or(f64::NAN)
     }
 
+    /// The columns `name_x` and `name_y` side by side.
+    pub fn vectors(&self, name: &str) -> Vec<[f64; 2]> {
+        let [x, y] = ["x", "y"].map(|axis| self.column(&format!("{name}_{axis}")));
+        x.iter().zip(y).map(|(x, y)| [*x, *y]).collect()
+    }
+
     /// All columns of numbers, in the order of the file.
     pub fn columns(&self) -> impl Iterator<Item = (&str, &[f64])> {
         self.columns.iter().map(|(name, values)| (name.as_str(), values.as_slice()))

@@ -19,12 +19,13 @@ use fret_results::Wish;
 /// Why it cannot be had.
 pub fn besides(folder: &Path, point: &Point, plan: &Plan, history: &History) -> Result<Besides, Failure> {
     removed(folder)?;
-    let answer = written(folder, point, plan, history).and_then(|()| {
+    let solved = Solved { plan, history, quantities: &[], early: None, error_bars: None };
+    let answer = save(solved, &point.case_file, folder, Wish::Start).and_then(|()| {
         // what is told of it shall not name a folder that is gone
         let nameless = |failure| match failure {
             Failure::Call(why, help) => {
                 let shown = format!("{}: ", folder.display());
-                Failure::Call(format!("not computed: {}", why.replace(&shown, "")), help)
+                Failure::call(format!("not computed: {}", why.replace(&shown, "")), help)
             }
             other => other,
         };
@@ -34,11 +35,6 @@ pub fn besides(folder: &Path, point: &Point, plan: &Plan, history: &History) -> 
     });
     removed(folder)?;
     answer
-}
-
-fn written(folder: &Path, point: &Point, plan: &Plan, history: &History) -> Result<(), Failure> {
-    let solved = Solved { plan, history, quantities: &[], early: None, error_bars: None };
-    save(solved, &point.case_file, folder, Wish::Start)
 }
 
 fn removed(folder: &Path) -> Result<(), Failure> {

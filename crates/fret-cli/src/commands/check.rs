@@ -4,18 +4,16 @@ use fret_core::run::plausibility;
 use serde_json::json;
 
 use crate::arguments::PlannedArguments;
-use crate::commands::plan::{cells, cells_in_contact_radius, expected_contact, left_out, stages, warnings};
+use crate::commands::plan::{
+    answered, cells, cells_in_contact_radius, expected_contact, left_out, planned, stages, warnings,
+};
 use crate::failure::Failure;
 use crate::figures::counted;
-use crate::manner::refuse_other_file;
 use crate::terminal::Answer;
-use fret_results::{CaseFile, planned_from};
 
 /// Judges a case.
-pub fn check(PlannedArguments { case, from, manner }: &PlannedArguments) -> Result<Answer, Failure> {
-    manner.out.as_deref().map_or(Ok(()), |path| refuse_other_file(path, &["json"]))?;
-    let case_file = CaseFile::asked(case)?;
-    let plan = planned_from(&case_file, from.as_deref())?;
+pub fn check(asked: &PlannedArguments) -> Result<Answer, Failure> {
+    let (case_file, plan) = planned(asked)?;
     let record = json!({
         "status": "good",
         "case": case_file.name(),
@@ -36,9 +34,6 @@ pub fn check(PlannedArguments { case, from, manner }: &PlannedArguments) -> Resu
         stages(&plan),
         warnings,
     );
-    manner.step(|| left_out(&plan));
-    if let Some(path) = &manner.out {
-        manner.write(path, format!("{record:#}\n").as_bytes())?;
-    }
-    Ok(Answer::new(record, text))
+    asked.manner.step(|| left_out(&plan));
+    answered(&asked.manner, record, text)
 }

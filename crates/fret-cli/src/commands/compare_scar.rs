@@ -5,15 +5,15 @@
 
 use std::fmt::Write as _;
 
-use fret_core::scar::{Asked, Comparison, Line, Pair, compare, read};
+use fret_core::measured::MeasuredError;
+use fret_core::scar::{Comparison, Line, Pair, compare, read};
 use ndarray::Array2;
 use serde_json::{Value, json};
 
-use super::columns_asked::pairs;
+use super::columns_asked::asked;
 use super::identify::content;
 use crate::arguments::CompareScarArguments;
-use crate::drawing::chart::{Chart, Curve};
-use crate::drawing::scale::Label;
+use crate::drawing::{Chart, Curve, Label};
 use crate::failure::Failure;
 use crate::figures::{figure, figure_in, indented};
 use crate::identify::name_of;
@@ -27,28 +27,25 @@ const OF_BOTH: &str = "worn_depth";
 
 /// Compares the last kept wear depth of a run with a measured line.
 pub fn compare_scar(arguments: &CompareScarArguments) -> Result<Answer, Failure> {
-    let asked = Asked {
-        columns: pairs("--columns", &arguments.columns, "position=x,height=z")?,
-        units: pairs("--units", &arguments.units, "position=um,height=nm")?,
-    };
+    let examples = ["position=x,height=z", "position=um,height=nm"];
+    let asked = asked(&arguments.columns, &arguments.units, examples)?;
     let run = Results::read(&arguments.folder)?;
     let name = name_of(&arguments.measured);
-    let measured = read((&name, &content(&arguments.measured)?), &asked, run.units())
-        .map_err(|refused| Failure::Call(refused.what, refused.help))?;
+    let refused = |error: MeasuredError| Failure::call(error.what, error.help);
+    let measured = read((&name, &content(&arguments.measured)?), &asked, run.units()).map_err(refused)?;
     let worn = Worn::of(&run, arguments.body.as_deref())?;
     let axis = usize::from(arguments.along == "y");
     if !run.grid().dimension().axes().contains(&axis) {
-        let what = "a line contact has the same wear depth all along y".to_owned();
-        return Err(Failure::Call(what, "--along x".to_owned()));
+        let what = "a line contact has the same wear depth all along y";
+        return Err(Failure::call(what, "--along x"));
     }
-    let found = compare(&worn.section(&run, axis), run.grid().spacing()[axis], measured)
-        .map_err(|refused| Failure::Call(refused.what, refused.help))?;
+    let found = compare(&worn.section(&run, axis), run.grid().spacing()[axis], measured).map_err(refused)?;
     let manner = &arguments.manner;
     let kind = ("scar", "scar.json", "a comparison of scars");
     let place = place_of_answer(manner, &arguments.folder, kind)?;
     let answer = BesideMeasured { run: &run, worn: &worn, along: &arguments.along, found: &found };
     let record = answer.record();
-    manner.write(&place.join("scar.json"), format!("{record:#}\n").as_bytes())?;
+    manner.write_json(&place.join("scar.json"), &record)?;
     manner.write(&place.join("scar.csv"), answer.csv().as_bytes())?;
     manner.write(&place.join("scar.svg"), answer.picture().as_bytes())?;
     let text = format!("{}\nwritten to {}", answer.text(), place.display());
@@ -71,22 +68,22 @@ impl Worn {
             None if run.fields.has("lower_worn_depth") => ("lower_worn_depth", "the lower body"),
             None => (OF_BOTH, "both bodies together"),
         };
-        let missing = |what: String| {
-            let way_out = "run the case again with output.fields = [\"worn_depth\", ...]".to_owned();
-            Failure::Call(format!("{}: {what}", run.path.display()), way_out)
+        let missing = |what: &str| {
+            let way_out = "run the case again with output.fields = [\"worn_depth\", ...]";
+            Failure::call(format!("{}: {what}", run.path.display()), way_out)
         };
         let Some(&increment) = run.fields.reached.last() else {
-            return Err(missing("no fields were kept".to_owned()));
+            return Err(missing("no fields were kept"));
         };
         let depth = run.field(field, increment)?.ok_or_else(|| match body {
-            Some(body) if run.fields.has(OF_BOTH) => Failure::Call(
+            Some(body) if run.fields.has(OF_BOTH) => Failure::call(
                 format!(
                     "{}: the wear depths of the {body} body by itself were not kept: only bodies that move have one each",
                     run.path.display()
                 ),
-                "without --body: the wear depth of both bodies together; or [kinematics] displacement = \"finite\"".to_owned(),
+                "without --body: the wear depth of both bodies together; or [kinematics] displacement = \"finite\"",
             ),
-            _ => missing(format!("the field {field} was not kept")),
+            _ => missing(&format!("the field {field} was not kept")),
         })?;
         Ok(Self { whose, increment, depth })
     }
@@ -116,14 +113,11 @@ struct BesideMeasured<'a> {
 impl BesideMeasured<'_> {
     fn record(&self) -> Value {
         let found = self.found;
-        let numbers: serde_json::Map<String, Value> = found
-            .numbers
-            .iter()
-            .map(|pair| {
-                let of = json!({ "computed": pair.computed, "measured": pair.measured, "difference": pair.difference() });
-                (pair.name.to_owned(), of)
-            })
-            .collect();
+        let number = |pair: &Pair| {
+            let of = json!({ "computed": pair.computed, "measured": pair.measured, "difference": pair.difference() });
+            (pair.name.to_owned(), of)
+        };
+        let numbers: serde_json::Map<String, Value> = found.numbers.iter().map(number).collect();
         json!({
             "measured": found.name,
             "along": self.along,
@@ -161,14 +155,13 @@ impl BesideMeasured<'_> {
 
     fn picture(&self) -> String {
         let unit = self.run.units().map(|units| units.length.clone());
-        let label = |name: &str| Label { name: name.to_owned(), unit: unit.clone() };
+        let axes = [self.along, "height"].map(|name| Label::with(name, unit.clone()));
         let curve = |z: &[f64], name: &str, colour: usize| {
             let points = self.found.x.iter().zip(z).map(|(x, z)| [*x, -z]).collect();
             Curve::line(points, name, colour)
         };
         let curves =
             vec![curve(&self.found.measured, "measured", 1), curve(&self.found.computed, "computed", 0)];
-        let axes = [label(self.along), label("height")];
         Chart::new("wear scar, computed and measured", axes, curves)
             .drawing()
             .alone(&[&self.run.title(), &format!("wear scar of {}, {}", self.worn.whose, self.found.name)])

@@ -30,7 +30,7 @@ pub fn explain(name: Option<&str>) -> Result<Answer, Failure> {
         } else {
             format!("did you mean {}?", near.join(", "))
         };
-        return Err(Failure::Call(format!("no warning is called {name:?}"), help));
+        return Err(Failure::call(format!("no warning is called {name:?}"), help));
     };
     let Row { name, quantity, bound, warns_below, consequence, help, .. } = row;
     let side = if warns_below { "at least" } else { "at most" };

@@ -16,7 +16,7 @@ pub fn explore(arguments: &ExploreArguments, as_json: bool) -> Result<(), Failur
     let question = pool.install(|| Question::new(&case_file, arguments.cells))?;
     if question.sliders.is_empty() {
         let why = format!("{}: has no number that a slider could change", case_file.name());
-        return Err(Failure::Call(why, "a case with moduli, friction or loads as plain numbers".to_owned()));
+        return Err(Failure::call(why, "a case with moduli, friction or loads as plain numbers"));
     }
     let server = Server::open(arguments.port)?;
     interrupt::listen();

@@ -27,9 +27,9 @@ pub fn export(arguments: &ExportArguments) -> Result<Answer, Failure> {
     let asked: Vec<(&str, Writing)> =
         forms.into_iter().filter(|(asked, _, _)| *asked).map(|(_, name, write)| (name, write)).collect();
     if arguments.manner.out.is_some() && asked.len() > 1 {
-        return Err(Failure::Call(
-            "--out names one place, and several forms are asked for".to_owned(),
-            "ask for one form at a time, or leave --out away".to_owned(),
+        return Err(Failure::call(
+            "--out names one place, and several forms are asked for",
+            "ask for one form at a time, or leave --out away",
         ));
     }
     let results = Results::read(&arguments.results)?;
@@ -39,9 +39,9 @@ pub fn export(arguments: &ExportArguments) -> Result<Answer, Failure> {
         if name == NPZ {
             refuse_other_file(&path, &["npz"])?;
         } else if path.exists() && !path.is_dir() {
-            return Err(Failure::Call(
+            return Err(Failure::call(
                 format!("{}: a file, where the export is a folder", path.display()),
-                "choose another place with --out DIR".to_owned(),
+                "choose another place with --out DIR",
             ));
         }
         files.extend(write(&results, &path)?);

@@ -3,30 +3,25 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use fret_core::model::HalfSpace;
 use fret_core::subsurface::coating_fracture::Film;
-use fret_core::subsurface::fatigue::{LayerConstants, Parameter};
+use fret_core::subsurface::fatigue::Parameter;
 use fret_core::subsurface::film_stress::{FilmCrack, FilmStress};
 use fret_core::subsurface::severity::{constants_of, material_of};
-use fret_core::subsurface::{DepthPoint, Judged, LoadedSurface, MostSevere, Severity, StressField};
+use fret_core::subsurface::{Judged, LoadedSurface, MostSevere, Severity, StressField};
 
-use super::crack::{Crack, CrackAnswer};
+use super::below::Below;
+use super::crack::{CrackAnswer, followed};
 use super::stress_record::{
     AtDistance, Bounded, CriticalDistance, FatigueRecord, FilmRecord, ParameterRecord,
 };
-use crate::commands::stress_kinds::kind_of_stress;
+
 use crate::failure::Failure;
-use crate::figures::{bounded, figure_in};
+
 use crate::table::Columns;
-use fret_results::Results;
 
 /// Collects what fatigue is judged by, one depth at a time.
 pub struct Fatigue<'a> {
-    run: &'a Results,
-    half_space: &'a HalfSpace,
-    constants: &'a LayerConstants,
-    points: &'a [DepthPoint],
-    surfaces: &'a [LoadedSurface],
+    below: Below<'a>,
     /// Indices of the surfaces of the cycle; none where the history has no whole cycle.
     cycle: Vec<usize>,
     severity: Option<Severity<'a>>,
@@ -53,18 +48,12 @@ pub struct Finished {
 
 impl<'a> Fatigue<'a> {
     /// Nothing collected yet; `cycle` are the surfaces of the last cycle, three at least.
-    pub fn new(
-        run: &'a Results,
-        half_space: &'a HalfSpace,
-        constants: &'a LayerConstants,
-        (points, surfaces): (&'a [DepthPoint], &'a [LoadedSurface]),
-        cycle: Vec<usize>,
-        row: usize,
-    ) -> Self {
+    pub fn new(below: Below<'a>, cycle: Vec<usize>, row: usize) -> Self {
+        let Below { half_space, constants, points, surfaces, .. } = below;
         let severity = (cycle.len() > 2)
             .then(|| Severity::new(half_space, constants, points, (surfaces, cycle.clone()), Some(row)));
         let film = Film::outermost(half_space).map(FilmStress::new);
-        Self { run, half_space, constants, points, surfaces, cycle, severity, film }
+        Self { below, cycle, severity, film }
     }
 
     /// Takes the stress at one depth in one increment.
@@ -73,12 +62,12 @@ impl<'a> Fatigue<'a> {
             severity.look(point, surface, field);
         }
         if let Some(film) = &mut self.film {
-            film.look(self.points[point], surface, field);
+            film.look(self.below.points[point], surface, field);
         }
     }
 
-    /// The largest values and where, the crack, the coating.
-    pub fn finished(mut self) -> Result<Finished, Failure> {
+    /// The largest values and where, the crack, the coating; what was collected is used up.
+    pub fn finished(&mut self) -> Result<Finished, Failure> {
         let mut finished = Finished::default();
         self.coating(&mut finished);
         if let Some(severity) = self.severity.take() {
@@ -88,17 +77,9 @@ impl<'a> Fatigue<'a> {
         Ok(finished)
     }
 
-    fn told(&self, value: f64, kind: &str) -> String {
-        figure_in(self.run.units(), value, kind)
-    }
-
-    fn place(&self, cell: [usize; 2], off: [f64; 2]) -> [f64; 2] {
-        let grid = self.run.grid();
-        [0, 1].map(|axis| grid.centre(axis, cell[axis]) + off[axis] * grid.spacing()[axis])
-    }
-
     fn parameters(&self, judged: &Judged, finished: &mut Finished) -> Result<(), Failure> {
-        let increments: Vec<usize> = self.cycle.iter().map(|&n| self.surfaces[n].increment).collect();
+        let surfaces = self.below.surfaces;
+        let increments: Vec<usize> = self.cycle.iter().map(|&n| surfaces[n].increment).collect();
         let mut parameters = BTreeMap::new();
         let _ = writeln!(
             finished.table,
@@ -106,6 +87,11 @@ impl<'a> Fatigue<'a> {
             increments.first().copied().unwrap_or(0),
             increments.last().copied().unwrap_or(0)
         );
+        let mut told = |name: &str, found: ParameterRecord| {
+            let words = found.words(name, |value, kind| self.below.told(value, kind));
+            let _ = writeln!(finished.table, "  {words}");
+            parameters.insert(name.to_owned(), found);
+        };
         for parameter in Parameter::ALL {
             let of: Vec<&MostSevere> =
                 judged.found.iter().filter(|found| found.parameter == parameter).collect();
@@ -116,58 +102,34 @@ impl<'a> Fatigue<'a> {
             if of.len() > 1 {
                 entry.layers = of.iter().map(|found| self.entry(found)).collect();
             }
-            self.line(largest, &mut finished.table);
             if let Some((_, at)) = judged.at_distance.iter().find(|(of, _)| *of == parameter) {
-                let constants = constants_of(self.half_space, self.constants, 0);
-                let cycles =
-                    |value: f64| parameter.cycles(value, &material_of(self.half_space, 0)?, &constants);
-                let told = |(value, cell): (f64, [usize; 2])| {
-                    let [x, y] = self.place(cell, [0.0; 2]);
-                    AtDistance { value, x, y, cycles: cycles(value).map(Bounded) }
+                let constants = constants_of(self.below.half_space, self.below.constants, 0);
+                let material = material_of(self.below.half_space, 0);
+                let at_distance = |(value, cell): (f64, [usize; 2])| {
+                    let [x, y] = self.below.place(cell, [0.0; 2]);
+                    let cycles = material.as_ref().and_then(|of| parameter.cycles(value, of, &constants));
+                    AtDistance { value, x, y, cycles: cycles.map(Bounded) }
                 };
-                let in_words = |value: f64| {
-                    let cycles = cycles(value)
-                        .map_or(String::new(), |cycles| format!(" ({} cycles)", bounded(cycles)));
-                    self.told(value, kind_of_stress(parameter.name())) + &cycles
-                };
-                let (point, line) = (told(at.point), told(at.line));
+                let (point, line) = (at_distance(at.point), at_distance(at.line));
                 entry.critical_distance = Some(CriticalDistance { distance: at.distance, point, line });
-                let _ = writeln!(
-                    finished.table,
-                    "    at the critical distance {}: {} by the point method, {} by the line method",
-                    self.told(at.distance, "length"),
-                    in_words(at.point.0),
-                    in_words(at.line.0)
-                );
             }
-            parameters.insert(parameter.name().to_owned(), entry);
+            told(parameter.name(), entry);
         }
         if let Some(ruiz) = &judged.ruiz {
             for (part, name) in ["ruiz_f1", "ruiz_f2"].into_iter().enumerate() {
                 let first = (f64::NEG_INFINITY, [0, 0]);
-                let (value, cell) = ruiz.indexed_iter().fold(first, |best, ((i, j), ruiz)| {
+                let (largest, cell) = ruiz.indexed_iter().fold(first, |best, ((i, j), ruiz)| {
                     let value = [ruiz.f1, ruiz.f2][part];
                     if value > best.0 { (value, [i, j]) } else { best }
                 });
-                let [x, y] = self.place(cell, [0.0; 2]);
-                parameters.insert(
-                    name.to_owned(),
-                    ParameterRecord { largest: value, x, y, ..ParameterRecord::default() },
-                );
-                let _ = writeln!(
-                    finished.table,
-                    "  {:<20} {:<12} at x {:<12} surface",
-                    name.replace('_', " "),
-                    self.told(value, kind_of_stress(name)),
-                    self.told(x, "length")
-                );
+                let [x, y] = self.below.place(cell, [0.0; 2]);
+                told(name, ParameterRecord { largest, x, y, ..ParameterRecord::default() });
             }
         }
         finished.files.push(("fatigue.csv", self.by_layer(judged)));
-        let crack = Crack { run: self.run, half_space: self.half_space, constants: self.constants };
-        let cycle: Vec<LoadedSurface> = self.cycle.iter().map(|&n| self.surfaces[n].clone()).collect();
+        let cycle: Vec<LoadedSurface> = self.cycle.iter().map(|&n| surfaces[n].clone()).collect();
         let mut fatigue = FatigueRecord { increments, parameters, crack: None };
-        if let Some(CrackAnswer { record, table, csv }) = crack.followed(&judged.at_surface, &cycle)? {
+        if let Some(CrackAnswer { record, table, csv }) = followed(&self.below, &judged.at_surface, &cycle)? {
             fatigue.crack = Some(record);
             finished.table += &table;
             finished.files.extend(csv.map(|csv| ("crack.csv", csv)));
@@ -184,7 +146,7 @@ impl<'a> Fatigue<'a> {
     }
 
     fn entry(&self, found: &MostSevere) -> ParameterRecord {
-        let [x, y] = self.place(found.cell, found.off);
+        let [x, y] = self.below.place(found.cell, found.off);
         ParameterRecord {
             largest: found.value,
             x,
@@ -200,33 +162,6 @@ impl<'a> Fatigue<'a> {
         }
     }
 
-    fn line(&self, found: &MostSevere, table: &mut String) {
-        let [x, y] = self.place(found.cell, found.off);
-        let _ = write!(
-            table,
-            "  {:<20} {:<12} at x {:<12} y {:<12} depth {:<12}",
-            found.parameter.name().replace('_', " "),
-            self.told(found.value, kind_of_stress(found.parameter.name())),
-            self.told(x, "length"),
-            self.told(y, "length"),
-            self.told(found.point.depth, "length")
-        );
-        if let Some(cycles) = found.cycles {
-            let _ = write!(table, " cycles to initiation {}", bounded(cycles));
-        }
-        if let Some(factor) = found.factor_of_safety {
-            let _ = write!(table, " factor of safety {}", bounded(factor));
-        }
-        if found.off != [0.0; 2] {
-            let cells = self.told(found.of_cells, kind_of_stress(found.parameter.name()));
-            let cycles =
-                found.cycles_of_cells.map_or(String::new(), |cycles| format!(", {} cycles", bounded(cycles)));
-            let _ = write!(table, " (extrapolated to the rim; largest cell {cells}{cycles})");
-        }
-        table.truncate(table.trim_end().len());
-        table.push('\n');
-    }
-
     /// Lines of `fatigue.csv`: the largest value of every parameter in every layer.
     fn by_layer(&self, judged: &Judged) -> String {
         let at = |found: &MostSevere| {
@@ -238,8 +173,8 @@ impl<'a> Fatigue<'a> {
             .column("parameter", "", |found| found.parameter.name())
             .column("layer", "", |found| found.point.layer)
             .column("largest", "", |found| found.value)
-            .column("x", "length", |found| self.place(found.cell, found.off)[0])
-            .column("y", "length", |found| self.place(found.cell, found.off)[1])
+            .column("x", "length", |found| self.below.place(found.cell, found.off)[0])
+            .column("y", "length", |found| self.below.place(found.cell, found.off)[1])
             .column("depth", "length", |found| found.point.depth)
             .column("cycles", "", |found| found.cycles)
             .column("factor_of_safety", "", |found| found.factor_of_safety)
@@ -250,26 +185,24 @@ impl<'a> Fatigue<'a> {
             .column("normal_z", "", |found| normal(found, 2))
             .column("point_method", "", |found| at(found).map(|at| at.point.0))
             .column("line_method", "", |found| at(found).map(|at| at.line.0));
-        columns.csv(self.run.units(), &judged.found)
+        columns.csv(self.below.run.units(), &judged.found)
     }
 
     /// Channelling and delamination of the outermost coating.
     fn coating(&mut self, finished: &mut Finished) {
         let Some(film) = self.film.take() else { return };
-        let constants = constants_of(self.half_space, self.constants, 0);
+        let constants = constants_of(self.below.half_space, self.below.constants, 0);
         let cracks = film.most_severe(&constants);
-        if cracks.is_empty() || material_of(self.half_space, 0).is_none() {
+        if cracks.is_empty() || material_of(self.below.half_space, 0).is_none() {
             return;
         }
-        let mut records = Vec::new();
-        for FilmCrack { stress, direction, surface, cell, released } in cracks {
-            let [x, y] = self.place(cell, [0.0; 2]);
-            let increment = self.surfaces[surface].increment;
+        let record = |FilmCrack { stress, direction, surface, cell, released }: FilmCrack| {
+            let [x, y] = self.below.place(cell, [0.0; 2]);
             let factor = |(energy, toughness): (f64, f64)| Bounded((toughness / energy).sqrt());
-            records.push(FilmRecord {
+            FilmRecord {
                 stress,
                 direction,
-                increment,
+                increment: self.below.surfaces[surface].increment,
                 x,
                 y,
                 channelling: released.channelling,
@@ -279,20 +212,12 @@ impl<'a> Fatigue<'a> {
                 delamination_factor_of_safety: constants
                     .interface_energy
                     .map(|toughness| factor((released.delamination, toughness))),
-            });
-            let sense = if stress > 0.0 { "tension" } else { "compression" };
-            let channelling = match released.channelling {
-                Some(energy) => self.told(energy, "pressure x length"),
-                None => "- (needs lower.coatings[..].fatigue.channelling_factor)".to_owned(),
-            };
-            let _ = writeln!(
-                finished.table,
-                "  coating, mean {sense:<11} {:<12} at x {:<12} y {:<12} energy released: channelling {channelling}, delamination {}",
-                self.told(stress, "pressure"),
-                self.told(x, "length"),
-                self.told(y, "length"),
-                self.told(released.delamination, "pressure x length")
-            );
+            }
+        };
+        let records: Vec<FilmRecord> = cracks.into_iter().map(record).collect();
+        for film in &records {
+            let words = film.words(|value, kind| self.below.told(value, kind));
+            let _ = writeln!(finished.table, "  {words}");
         }
         finished.coating = Some(records);
     }

@@ -11,7 +11,6 @@ use fret_core::conduction::{
     ConductionError, HeatedSurface, SurfaceTemperature, contact_resistance, friction_heat, slip_of_cycle,
     surface_temperature,
 };
-use fret_core::history::CycleRecord;
 use fret_core::machine::memory;
 use fret_core::model::{Conductor, Dimension};
 use fret_core::plan::memory_of_stress;
@@ -26,8 +25,11 @@ use crate::figures::{duration, figure_in};
 use crate::interrupt;
 use crate::manner::{Manner, place_of_answer};
 use crate::terminal::Answer;
-use fret_results::CaseFile;
-use fret_results::Results;
+use fret_results::{CaseFile, Results};
+
+/// What brings conductors.
+const CONDUCTORS: &str =
+    "thermal_conductivity or electrical_resistivity in the layers of a case; give it with --case FILE";
 
 /// Computes temperatures and resistances for a result folder.
 pub fn heat(arguments: &HeatArguments) -> Result<Answer, Failure> {
@@ -38,11 +40,8 @@ pub fn heat(arguments: &HeatArguments) -> Result<Answer, Failure> {
         run.record.plan.case.conduction = CaseFile::read(path)?.case(None)?.conduction;
     }
     if run.case().conduction.is_none() {
-        return Err(Failure::Call(
-            format!("{}: its case says nothing about conduction", folder.display()),
-            "thermal_conductivity or electrical_resistivity in the layers of a case; give it with --case FILE"
-                .to_owned(),
-        ));
+        let what = format!("{}: its case says nothing about conduction", folder.display());
+        return Err(Failure::call(what, CONDUCTORS));
     }
     let pool = arguments.threads.pool()?;
     let every = arguments.every.map(|every| every as usize);
@@ -73,7 +72,7 @@ fn without_answer(folder: &Path, run: &Results) -> Failure {
             "run the case again with pressure among the fields of [output]",
         )
     };
-    Failure::Call(format!("{}: {why}", folder.display()), help.to_owned())
+    Failure::call(format!("{}: {why}", folder.display()), help)
 }
 
 /// Temperatures and resistances of a run that has just ended; nothing of what has none: a line contact, a run without kept fields.
@@ -85,14 +84,9 @@ pub fn answered(folder: &Path) -> Result<Option<(HeatRecord, String)>, Failure> 
     if has_none { Ok(None) } else { computed(folder, &run, None, &Manner::SILENT) }
 }
 
-fn of([lower, upper]: &[Option<Conductor>; 2]) -> [Option<&Conductor>; 2] {
-    [lower.as_ref(), upper.as_ref()]
-}
-
 /// The conductors of both bodies; nothing where one does not conduct.
 fn both(pair: &[Option<Conductor>; 2]) -> Option<[Option<&Conductor>; 2]> {
-    let conductors = of(pair);
-    conductors.iter().all(Option::is_some).then_some(conductors)
+    pair.iter().all(Option::is_some).then(|| pair.each_ref().map(Option::as_ref))
 }
 
 /// What is written, and what a person reads; nothing where there is nothing to tell.
@@ -108,32 +102,26 @@ fn computed(
     let asked = manner.out.is_some().then(place).transpose()?;
     let ([first, last], _) = run.last_cycle();
     memory::check(memory_of_stress(run.grid().len(), last + 1 - first))?;
-    let rise = match run.case().conduction.frequency {
-        Some(frequency) => Some((frequency, temperature(folder, run, frequency, manner)?)),
-        None => None,
-    };
+    let frequency = run.case().conduction.frequency;
+    let rise = frequency.map(|frequency| temperature(folder, run, frequency, manner)).transpose()?;
     let resistance = resistances(folder, run, every, manner)?;
     if rise.is_none() && resistance.is_empty() {
         return Ok(None);
     }
     let place = asked.map_or_else(place, Ok)?;
-    let rise = match rise {
-        Some((frequency, (found, cycle, accounted))) => {
-            let path = place.join("temperature.npz");
-            fields(&path, run, &found)?;
-            manner.wrote(&path);
-            Some(risen(run, &found, (frequency, &cycle, accounted)))
-        }
-        None => None,
-    };
+    if let Some((_, found)) = &rise {
+        let path = place.join("temperature.npz");
+        fields(&path, run, found)?;
+        manner.wrote(&path);
+    }
     let record = HeatRecord {
         status: "computed".to_owned(),
         unfinished: run.unfinished(),
-        temperature: rise,
+        temperature: rise.map(|(record, _)| record),
         resistance,
         wall_s: started.elapsed().as_secs_f64(),
     };
-    manner.write(&place.join("heat.json"), format!("{:#}\n", json!(record)).as_bytes())?;
+    manner.write_json(&place.join("heat.json"), &record)?;
     let mut table = record.unfinished.as_ref().map_or(String::new(), |why| format!("{why}\n"));
     for [name, value, of] in record.lines(|value, kind| figure_in(run.units(), value, kind)) {
         let _ = if of.is_empty() {
@@ -146,26 +134,26 @@ fn computed(
     Ok(Some((record, table)))
 }
 
-/// Temperature rise over the last cycle, the cycle, and the fraction of its energy that the kept fields account for.
+/// Temperature rise over the last cycle, as it is told and as it is.
 fn temperature(
     folder: &Path,
     run: &Results,
     frequency: f64,
     manner: &Manner,
-) -> Result<(SurfaceTemperature, CycleRecord, f64), Failure> {
+) -> Result<(RiseRecord, SurfaceTemperature), Failure> {
     let shown = folder.display();
-    let refuse = |what: String| {
+    let refuse = |what: &str| {
         let help =
             "run the case again with [output] every = 1, and pressure, shear and slip among its fields";
-        Failure::Call(format!("{shown}: {what}"), help.to_owned())
+        Failure::call(format!("{shown}: {what}"), help)
     };
     let Some(cycle) = run.cycles.last() else {
-        return Err(refuse("no cycle is over, and only of a cycle is the mean power known".to_owned()));
+        return Err(refuse("no cycle is over, and only of a cycle is the mean power known"));
     };
     if run.case().friction.max_shear().is_some() {
-        return Err(Failure::Call(
+        return Err(Failure::call(
             format!("{shown}: heat by friction under friction.max_shear, a shear strength, is not computed"),
-            "leave [thermal] frequency out: the contact resistance does not need it".to_owned(),
+            "leave [thermal] frequency out: the contact resistance does not need it",
         ));
     }
     let [nx, ny] = run.grid().cells();
@@ -178,7 +166,7 @@ fn temperature(
         let field = |name: &str| -> Result<Array2<f64>, Failure> {
             let kept = run.field(name, increment)?;
             kept.ok_or_else(|| {
-                refuse(format!("{name} of increment {increment} of the last cycle is not kept"))
+                refuse(&format!("{name} of increment {increment} of the last cycle is not kept"))
             })
         };
         increments.push(HeatedSurface {
@@ -189,60 +177,45 @@ fn temperature(
     }
     let slip =
         slip_of_cycle(increments, cycle.dissipated_energy, run.grid().cell_area()).ok_or_else(|| {
-            refuse("the kept fields of the last cycle give another dissipated energy than the run".to_owned())
+            refuse("the kept fields of the last cycle give another dissipated energy than the run")
         })?;
     manner.step(|| {
         format!("temperature over increments {} to {}", cycle.first_increment, cycle.last_increment)
     });
     let found = surface_temperature(
-        of(&run.case().conduction.thermal),
+        run.case().conduction.thermal.each_ref().map(Option::as_ref),
         run.grid(),
         run.case().periodic,
         &friction_heat(&slip, frequency),
         &slip.contact,
     );
     let found = found.map_err(|error| unanswered(folder, &error))?;
-    Ok((found, cycle.clone(), slip.accounted))
-}
-
-fn unanswered(folder: &Path, error: &ConductionError) -> Failure {
-    let shown = folder.display();
-    match error {
-        ConductionError::Kernel(_) => Failure::Defect(format!("conduction kernels: {error}")),
-        ConductionError::Unsolved(_) => Failure::Defect(format!("conduction: {error}")),
-        ConductionError::Line => Failure::Call(
-            format!("{shown}: {error}"),
-            "run a contact of finite length: cells = [x, y], and no period or two".to_owned(),
-        ),
-        ConductionError::Periodic => Failure::Call(
-            format!("{shown}: {error}"),
-            "leave [thermal] frequency out: the contact resistance of a period does not need it".to_owned(),
-        ),
-        _ => Failure::Call(
-            format!("{shown}: {error}"),
-            "thermal_conductivity or electrical_resistivity in the layers of a case; give it with --case FILE"
-                .to_owned(),
-        ),
-    }
-}
-
-fn risen(
-    run: &Results,
-    found: &SurfaceTemperature,
-    (frequency, cycle, accounted): (f64, &CycleRecord, f64),
-) -> RiseRecord {
     let (value, cell) = found.largest();
     let [x, y] = [0, 1].map(|axis| run.grid().centre(axis, cell[axis]));
-    RiseRecord {
+    let record = RiseRecord {
         frequency,
         cycle: Increments { first_increment: cycle.first_increment, last_increment: cycle.last_increment },
         dissipated_energy: cycle.dissipated_energy,
-        kept_fields_account_for: accounted,
+        kept_fields_account_for: slip.accounted,
         power: found.heat.sum() * run.grid().cell_area(),
         lower_fraction: found.lower_fraction(),
         max_rise: AtPlace { value, x, y },
-        mean_rise: mean_where_heated(found),
-    }
+        mean_rise: mean_where_heated(&found),
+    };
+    Ok((record, found))
+}
+
+fn unanswered(folder: &Path, error: &ConductionError) -> Failure {
+    let help = match error {
+        ConductionError::Kernel(_) => return Failure::Defect(format!("conduction kernels: {error}")),
+        ConductionError::Unsolved(_) => return Failure::Defect(format!("conduction: {error}")),
+        ConductionError::Line => "run a contact of finite length: cells = [x, y], and no period or two",
+        ConductionError::Periodic => {
+            "leave [thermal] frequency out: the contact resistance of a period does not need it"
+        }
+        _ => CONDUCTORS,
+    };
+    Failure::call(format!("{}: {error}", folder.display()), help)
 }
 
 /// Mean of the temperature rise, weighted by the heat that is made: that of the power that goes in.
@@ -255,20 +228,11 @@ fn mean_where_heated(found: &SurfaceTemperature) -> f64 {
 fn fields(path: &Path, run: &Results, found: &SurfaceTemperature) -> Result<(), Failure> {
     let [x, y] = [0, 1].map(|axis| run.grid().centres(axis).to_vec());
     let cells = run.grid().cells();
-    let flat = |field: &Array2<f64>| field.iter().copied().collect::<Vec<f64>>();
-    let [heat, into_lower] = [&found.heat, &found.into_lower].map(flat);
-    let rise = found.rise.each_ref().map(|rise| rise.as_ref().map(flat));
-    let mut arrays: Vec<(&str, &[usize], &[f64])> = vec![
-        ("x", &cells[..1], &x),
-        ("y", &cells[1..], &y),
-        ("heat", &cells, &heat),
-        ("heat_into_lower", &cells, &into_lower),
-    ];
-    for (name, rise) in ["rise_lower", "rise_upper"].into_iter().zip(&rise) {
-        if let Some(rise) = rise {
-            arrays.push((name, &cells, rise));
-        }
-    }
+    let field = |name, field: &Array2<f64>| (name, &cells[..], field.iter().copied().collect());
+    let mut arrays = vec![("x", &cells[..1], x), ("y", &cells[1..], y), field("heat", &found.heat)];
+    arrays.push(field("heat_into_lower", &found.into_lower));
+    let rises = ["rise_lower", "rise_upper"].into_iter().zip(&found.rise);
+    arrays.extend(rises.filter_map(|(name, rise)| Some(field(name, rise.as_ref()?))));
     npz::arrays(path, &arrays)
 }
 

@@ -6,15 +6,14 @@ use std::path::{Path, PathBuf};
 use fret_core::identify;
 use fret_core::measured::Asked;
 
-use super::columns_asked::pairs;
+use super::columns_asked::asked;
 use crate::arguments::IdentifyArguments;
 use crate::failure::Failure;
 use crate::figures::counted;
 use crate::identify::indentation::{IndentationAsked, indentation};
 use crate::identify::{Identified, Request, identify as identified, name_of};
 use crate::terminal::Answer;
-use fret_results::CaseFile;
-use fret_results::{folder_for_answers, stem};
+use fret_results::{CaseFile, folder_for_answers, stem};
 
 /// The answer, which marks its folder.
 const IDENTIFIED: &str = "identified.json";
@@ -28,12 +27,7 @@ const MOST_BYTES: u64 = 1 << 30;
 pub fn identify(arguments: &IdentifyArguments) -> Result<Answer, Failure> {
     let name = name_of(&arguments.log);
     let bytes = content(&arguments.log)?;
-    let asked = |example: &str| -> Result<Asked, Failure> {
-        Ok(Asked {
-            columns: pairs("--columns", &arguments.columns, example)?,
-            units: pairs("--units", &arguments.units, example)?,
-        })
-    };
+    let asked = |example: &str| asked(&arguments.columns, &arguments.units, [example, example]);
     let question = if arguments.indentation {
         Question::Indentation(indentation_asked(arguments, asked(EXAMPLE_OF_DEPTH)?)?)
     } else {
@@ -53,7 +47,7 @@ pub fn identify(arguments: &IdentifyArguments) -> Result<Answer, Failure> {
         Question::Indentation(request) => indentation(log, &case_file, &request),
     })?;
     let manner = &arguments.manner;
-    manner.write(&folder.join(IDENTIFIED), format!("{record:#}\n").as_bytes())?;
+    manner.write_json(&folder.join(IDENTIFIED), &record)?;
     manner.write(&folder.join("identified.html"), page.as_bytes())?;
     for (name, table) in &tables {
         manner.write(&folder.join(name), table.as_bytes())?;
@@ -72,12 +66,12 @@ fn one_key(keys: &[String]) -> Result<Option<String>, Failure> {
     match keys {
         [] => Ok(None),
         [key] => Ok(Some(key.clone())),
-        keys => Err(Failure::Call(
+        keys => Err(Failure::call(
             format!(
                 "--fit, {} times: a fretting loop tells one number of the case besides friction and rig",
                 keys.len()
             ),
-            "--fit KEY once; several are fitted to an indentation (--indentation)".to_owned(),
+            "--fit KEY once; several are fitted to an indentation (--indentation)",
         )),
     }
 }
@@ -85,9 +79,9 @@ fn one_key(keys: &[String]) -> Result<Option<String>, Failure> {
 fn indentation_asked(arguments: &IdentifyArguments, asked: Asked) -> Result<IndentationAsked, Failure> {
     let part = arguments.part.as_deref().and_then(identify::Part::named).unwrap_or_default();
     if arguments.fit.is_empty() && !arguments.frame {
-        return Err(Failure::Call(
-            "--indentation: nothing is fitted but the depth at first touch".to_owned(),
-            "--fit lower.coatings[0].young, or another number of the case; or --frame".to_owned(),
+        return Err(Failure::call(
+            "--indentation: nothing is fitted but the depth at first touch",
+            "--fit lower.coatings[0].young, or another number of the case; or --frame",
         ));
     }
     let (touch, frame, strict) = (arguments.touch, arguments.frame, arguments.strict);
@@ -100,9 +94,8 @@ fn indentation_asked(arguments: &IdentifyArguments, asked: Asked) -> Result<Inde
 /// # Errors
 /// When it is none, or too long, or cannot be read.
 pub fn content(log: &Path) -> Result<Vec<u8>, Failure> {
-    let unreadable = |why: String| {
-        Failure::Call(format!("{}: {why}", name_of(log)), "a log is a text file with columns".to_owned())
-    };
+    let unreadable =
+        |why: String| Failure::call(format!("{}: {why}", name_of(log)), "a log is a text file with columns");
     let found = std::fs::metadata(log).map_err(|error| unreadable(error.to_string()))?;
     if !found.is_file() {
         return Err(unreadable("no ordinary file".to_owned()));

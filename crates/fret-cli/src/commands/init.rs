@@ -16,11 +16,11 @@ pub fn init(InitArguments { template, manner }: &InitArguments) -> Result<Answer
     let (Some(name), out) = (template, manner.out.as_deref()) else { return Ok(list()) };
     if out == Some(Path::new("-")) {
         let help = "name a file; a template may have other files beside it";
-        return Err(Failure::Call("a case to begin with is written to a file".to_owned(), help.to_owned()));
+        return Err(Failure::call("a case to begin with is written to a file", help));
     }
     let template = TEMPLATES.iter().find(|template| template.name == *name).ok_or_else(|| {
         let names: Vec<&str> = TEMPLATES.iter().map(|template| template.name).collect();
-        Failure::Call(format!("no template is called {name:?}"), format!("there are: {}", names.join(", ")))
+        Failure::call(format!("no template is called {name:?}"), format!("there are: {}", names.join(", ")))
     })?;
     let path = out.map_or_else(|| PathBuf::from(format!("{name}.toml")), Path::to_owned);
     let written = write(template, &path)?;
@@ -59,8 +59,7 @@ fn write(template: &Template, path: &Path) -> Result<Vec<String>, Failure> {
         } else {
             "the case names it: choose another folder with --out DIR/FILE, or move it away"
         };
-        let help = help.to_owned();
-        return Err(Failure::Call(format!("{}: exists already", there.display()), help));
+        return Err(Failure::call(format!("{}: exists already", there.display()), help));
     }
     if !folder.as_os_str().is_empty() {
         fs::create_dir_all(folder).map_err(Unwritten::at(folder))?;

@@ -39,15 +39,15 @@ pub fn loaded_surfaces(
     }
     let shown = folder.display();
     if surfaces.is_empty() {
-        return Err(Failure::Call(
+        return Err(Failure::call(
             format!("{shown}: holds no tractions: the pressure of no increment was kept"),
-            "run the case again with output.fields = [\"pressure\", \"shear\", ...]".to_owned(),
+            "run the case again with output.fields = [\"pressure\", \"shear\", ...]",
         ));
     }
     if !run.is_frictionless() && surfaces.iter().any(|surface| surface.shear.is_none()) {
-        return Err(Failure::Call(
+        return Err(Failure::call(
             format!("{shown}: holds no shear, but the contact has friction"),
-            "run the case again with output.fields = [\"pressure\", \"shear\", ...]".to_owned(),
+            "run the case again with output.fields = [\"pressure\", \"shear\", ...]",
         ));
     }
     Ok(surfaces)

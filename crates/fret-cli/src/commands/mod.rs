@@ -1,5 +1,6 @@
 //! The verbs of `fret`, one file each, with what they need beside.
 
+mod below;
 mod besides;
 pub mod check;
 mod columns_asked;

@@ -3,16 +3,17 @@
 use fret_core::history::Warning;
 use fret_core::machine::memory::{self, MemoryError, amount};
 use fret_core::model::{Body, Dimension};
-use fret_core::plan::{Coupling, Plan};
+use fret_core::plan::{Coupling, LeftOut, Plan};
 use fret_core::run::plausibility;
 use fret_core::study::{Expectation, expectation};
+use fret_core::units::Units;
 use serde::Serialize;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::arguments::PlannedArguments;
 use crate::failure::Failure;
-use crate::figures::{LONGEST_TITLE, counted, duration, figure, shortened};
-use crate::manner::refuse_other_file;
+use crate::figures::{LONGEST_TITLE, counted, duration, figure_in, shortened};
+use crate::manner::{Manner, refuse_other_file};
 use crate::summary::warning_line;
 use crate::terminal::Answer;
 use crate::threads;
@@ -35,11 +36,25 @@ struct Record<'a> {
     warnings: Vec<Warning>,
 }
 
+/// The case that is asked about, and its plan.
+pub fn planned(asked: &PlannedArguments) -> Result<(CaseFile, Plan), Failure> {
+    asked.manner.out.as_deref().map_or(Ok(()), |path| refuse_other_file(path, &["json"]))?;
+    let case_file = CaseFile::asked(&asked.case)?;
+    let plan = planned_from(&case_file, asked.from.as_deref())?;
+    Ok((case_file, plan))
+}
+
+/// An answer, written where that is asked for.
+pub fn answered(manner: &Manner, record: Value, text: String) -> Result<Answer, Failure> {
+    if let Some(path) = &manner.out {
+        manner.write_json(path, &record)?;
+    }
+    Ok(Answer::new(record, text))
+}
+
 /// Plans a case and tells the plan.
-pub fn plan(PlannedArguments { case, from, manner }: &PlannedArguments) -> Result<Answer, Failure> {
-    manner.out.as_deref().map_or(Ok(()), |path| refuse_other_file(path, &["json"]))?;
-    let case_file = CaseFile::asked(case)?;
-    let plan = planned_from(&case_file, from.as_deref())?;
+pub fn plan(asked: &PlannedArguments) -> Result<Answer, Failure> {
+    let (case_file, plan) = planned(asked)?;
     let lacking = memory::check(plan.memory_bytes).err();
     // A run that cannot be begun takes no time, and a part of it may be too much.
     let expected = match lacking {
@@ -57,10 +72,7 @@ pub fn plan(PlannedArguments { case, from, manner }: &PlannedArguments) -> Resul
         warnings: plausibility::of_plan(&plan),
         plan: &plan,
     });
-    if let Some(path) = &manner.out {
-        manner.write(path, format!("{record:#}\n").as_bytes())?;
-    }
-    Ok(Answer::new(record, text))
+    answered(&asked.manner, record, text)
 }
 
 fn table(
@@ -127,14 +139,10 @@ pub fn left_out(plan: &Plan) -> String {
     if plan.left_out.is_empty() {
         return "automatic simplifications: none".to_owned();
     }
-    let items = plan
-        .left_out
-        .iter()
-        .map(|item| format!("  {}\n    because {}\n    saves {}", item.what, item.why, item.saves));
-    format!(
-        "automatic simplifications (same result to the solver tolerance):\n{}",
-        items.collect::<Vec<_>>().join("\n")
-    )
+    let told =
+        |item: &LeftOut| format!("\n  {}\n    because {}\n    saves {}", item.what, item.why, item.saves);
+    let items: String = plan.left_out.iter().map(told).collect();
+    format!("automatic simplifications (same result to the solver tolerance):{items}")
 }
 
 /// The same for the start of a run: a line an item.
@@ -145,8 +153,7 @@ pub fn left_out_in_short(plan: &Plan) -> String {
 
 /// The grid in a line.
 pub fn cells(plan: &Plan) -> String {
-    let unit = plan.case.units.as_ref().map_or_else(String::new, |units| format!(" {}", units.length));
-    let figure = |value: f64| format!("{}{unit}", figure(value));
+    let figure = |value: f64| figure_in(plan.case.units.as_ref(), value, "length");
     let ([nx, ny], [dx, dy], [width, depth]) = (plan.grid.cells(), plan.grid.spacing(), plan.grid.size());
     let datum = plan.datum.map_or_else(String::new, |datum| {
         format!("; approach and shift are relative to {} below the load", figure(datum))
@@ -178,7 +185,7 @@ pub fn cells_in_contact_radius(plan: &Plan) -> Option<f64> {
 pub fn expected_contact(plan: &Plan) -> Option<String> {
     let cells = cells_in_contact_radius(plan)?;
     let [x, y] = plan.expected?.half_widths;
-    let unit = plan.case.units.as_ref().map_or_else(String::new, |units| format!(" {}", units.length));
+    let unit = Units::after(plan.case.units.as_ref(), "length", Dimension::Plane);
     let is_round = (x - y).abs() <= 0.1 * x.max(y); // they are known to a twentieth
     let what = match (plan.grid.dimension(), is_round) {
         (Dimension::Line, _) => format!("half-width, about {}{unit}", two_digits(x)),
@@ -198,25 +205,21 @@ fn two_digits(value: f64) -> f64 {
 /// How many uniform layers stand for the coatings: of a graded one as many as its gradient asks for.
 fn layers(plan: &Plan) -> String {
     let bodies = [("upper", plan.case.bodies.upper()), ("lower", plan.case.bodies.lower())];
-    let layered: Vec<String> = bodies
-        .into_iter()
-        .filter_map(|(name, body)| match body {
-            Body::Elastic(half_space) if !half_space.coatings().is_empty() => {
-                let coatings = half_space.coatings();
-                let springs = coatings.iter().filter(|coating| !coating.interface().is_bonded()).count();
-                let springs =
-                    if springs > 0 { format!(", {springs} of them not bonded") } else { String::new() };
-                Some(format!("{} on the {name} body{springs}", counted(coatings.len(), "uniform layer")))
-            }
-            _ => None,
-        })
-        .collect();
+    let layers = |(name, body): (&str, &Body)| {
+        let Body::Elastic(half_space) = body else { return None };
+        let coatings = half_space.coatings();
+        let springs = coatings.iter().filter(|coating| !coating.interface().is_bonded()).count();
+        let springs = if springs > 0 { format!(", {springs} of them not bonded") } else { String::new() };
+        let layers = counted(coatings.len(), "uniform layer");
+        (!coatings.is_empty()).then(|| format!("{layers} on the {name} body{springs}"))
+    };
+    let layered: Vec<String> = bodies.into_iter().filter_map(layers).collect();
     if layered.is_empty() { "none".to_owned() } else { layered.join(", ") }
 }
 
 /// Measured surfaces and what is done to them, a line each.
 fn heights(plan: &Plan) -> String {
-    let unit = plan.case.units.as_ref().map_or_else(String::new, |units| format!(" {}", units.length));
+    let unit = Units::after(plan.case.units.as_ref(), "length", Dimension::Plane);
     let treated = plan.case.profile.heights.iter().filter_map(|heights| {
         let words = heights.treatment()?.words(&unit).join(", ");
         Some(format!("heights    {}: {words}\n", shortened(heights.source(), STAGE_LETTERS)))

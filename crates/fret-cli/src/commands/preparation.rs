@@ -14,9 +14,7 @@ use crate::failure::Failure;
 use crate::manner::Manner;
 use crate::summary::warning_line;
 use crate::threads;
-use fret_results::CaseFile;
-use fret_results::Origin;
-use fret_results::{ResultFolder, Standing, Wish, resolved_path};
+use fret_results::{CaseFile, Origin, ResultFolder, Standing, Wish, resolved_path};
 
 /// What is to be run, and where to.
 pub struct Wanted {
@@ -71,13 +69,13 @@ impl Wanted {
         if let Some(Origin { results, .. }) = &origin
             && is_same_folder(&folder, Path::new(results))
         {
-            return Err(Failure::Call(
+            return Err(Failure::call(
                 format!("{}: the run would replace the results it starts from", folder.display()),
-                "choose another folder with --out DIR".to_owned(),
+                "choose another folder with --out DIR",
             ));
         }
         let companion = self.estimate_error.then(|| companion(&plan)).transpose().map_err(|error| {
-            Failure::Call(format!("--estimate-error: {error}"), "the same command without it".to_owned())
+            Failure::call(format!("--estimate-error: {error}"), "the same command without it")
         })?;
         let standing = ResultFolder::standing(&folder, &case_file, &plan, wish)?;
         let threads = threads::asked(self.threads);

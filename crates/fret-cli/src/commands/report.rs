@@ -37,9 +37,9 @@ fn page_of(folder: &Path) -> Result<Page, Failure> {
         } else {
             "a sweep of Python is an xarray.Dataset: fretting.plot.regime_map draws it; `fret sweep` writes folders with a page"
         };
-        return Err(Failure::Call(
+        return Err(Failure::call(
             format!("{}: a sweep without the list of its points", folder.display()),
-            way_out.to_owned(),
+            way_out,
         ));
     }
     let results = Results::read(folder)?;

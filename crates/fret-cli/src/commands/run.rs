@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use fret_core::history::Warning;
 use fret_core::history::{WornByLayer, WornThrough};
 use fret_core::run::{Checkpoint, Simulation};
 use fret_core::study::{QuantityReader, StageQuantities};
@@ -15,14 +14,13 @@ use crate::commands::{heat, stress};
 use crate::defect;
 use crate::estimate::{Estimate, NoBars};
 use crate::failure::{Failure, Told};
-use crate::interrupt::{self, Listener};
-use crate::manner::Manner;
+use crate::interrupt;
+use crate::manner::{Listener, Manner};
 use crate::methods::paragraph;
 use crate::progress::Progress;
-use crate::summary::Summary;
+use crate::summary::{Ended, Summary};
 use crate::terminal;
-use fret_results::Tally;
-use fret_results::{ERROR_BARS, Origin, Record, ResultFolder, RunRecord, Standing, Stored};
+use fret_results::{ERROR_BARS, Origin, Record, ResultFolder, RunRecord, Standing, Stored, Tally};
 
 /// Solves a case.
 pub fn run(arguments: &RunArguments, as_json: bool, since: Instant) -> Result<(), Told> {
@@ -81,14 +79,8 @@ fn quantities_of(record: &Record) -> &[StageQuantities] {
 
 impl Preparation {
     fn begun(&self) -> Result<Beginning, Failure> {
-        let record = || {
-            RunRecord::new(
-                &self.case_file,
-                &self.plan,
-                self.threads,
-                self.origin.as_ref().map(Origin::told).as_ref(),
-            )
-        };
+        let start = self.origin.as_ref().map(Origin::told);
+        let record = || RunRecord::new(&self.case_file, &self.plan, self.threads, start.as_ref());
         if let Standing::Solved(record) = &self.standing {
             return Ok(Beginning::Nothing(record.clone()));
         }
@@ -120,7 +112,7 @@ impl Preparation {
     /// Tells that the run was solved before. Only what error bars need besides is computed, when they are asked for.
     fn solved_before(&self, record: &Record, as_json: bool) -> Result<(), Failure> {
         let shown = self.folder.display().to_string();
-        let estimate = self.estimated(quantities_of(record), &mut Listener)?;
+        let estimate = self.estimated(quantities_of(record), &mut Listener::silent())?;
         let done =
             if estimate.is_some() { "its error bars are computed now" } else { "nothing is left to do" };
         let message = format!("{shown}: solved already, {done}");
@@ -132,11 +124,11 @@ impl Preparation {
                 "increments": totals.map(|totals| totals.increments),
                 "totals": totals,
                 "results": shown,
-                "error_bars": estimate.map(|estimate| estimate.to_json(|stage| self.stage_name(stage))),
+                "error_bars": estimate.map(|estimate| estimate.record),
             });
             terminal::answer_in_json(&answer)?;
         } else if !self.manner.quiet {
-            let bars = estimate.map(|estimate| estimate.table(|stage| self.stage_name(stage)) + "\n\n");
+            let bars = estimate.map(|estimate| estimate.table() + "\n\n");
             terminal::answer(&(bars.unwrap_or_default() + &message))?;
             if let (true, Some(end)) = (self.manner.verbose, &record.end) {
                 let by = (record.version.as_str(), record.commit.as_str());
@@ -197,24 +189,18 @@ impl Preparation {
     }
 
     fn solved(&self, departure: Departure, as_json: bool) -> Result<(), Told> {
-        let Ended { tally, warnings, wall_s, estimate, failure } = self.followed(departure, &mut Listener);
-        let summary = Summary {
-            plan: &self.plan,
-            tally: &tally,
-            warnings: &warnings,
-            folder: &self.folder,
-            wall_s,
-            threads: self.threads,
-            estimate: estimate.as_ref(),
-        };
+        let ended = self.followed(departure, &mut Listener::silent());
+        let summary =
+            Summary { plan: &self.plan, folder: &self.folder, threads: self.threads, ended: &ended };
         if as_json {
-            terminal::answer_in_json(&summary.to_json(failure.as_ref()))?;
-        } else if failure.is_none() && !self.manner.quiet {
+            terminal::answer_in_json(&summary.to_json())?;
+        } else if ended.failure.is_none() && !self.manner.quiet {
             terminal::answer(&summary.table())?;
             if self.manner.verbose {
                 terminal::answer(&format!("\nfor the methods section:\n{}", summary.methods()))?;
             }
         }
+        let Ended { tally, failure, .. } = ended;
         match &failure {
             Some(Failure::Unwritten(_)) if !ResultFolder::can_go_on(&self.folder) => {
                 let shown = self.folder.display();
@@ -253,8 +239,7 @@ impl Preparation {
         let plan = &self.plan;
         match self.pool.install(|| Estimate::new(plan, companion, stage_quantities, guest)) {
             Ok(estimate) => {
-                let text = format!("{:#}\n", estimate.to_json(|stage| self.stage_name(stage)));
-                self.manner.write(&self.folder.join(ERROR_BARS), text.as_bytes())?;
+                self.manner.write_json(&self.folder.join(ERROR_BARS), &estimate.record)?;
                 Ok(Some(estimate))
             }
             Err(NoBars::Interrupted) => Err(Failure::Interrupted(format!(
@@ -286,22 +271,7 @@ impl Preparation {
         })
     }
 
-    fn stage_name(&self, stage: usize) -> String {
-        self.plan.case.stages[stage].name.clone()
-    }
-
     fn kept(&self, tally: &Tally) -> String {
         format!("{} and kept in {}", tally.standing(), self.folder.display())
     }
-}
-
-/// How a run ended.
-struct Ended {
-    tally: Tally,
-    warnings: Vec<Warning>,
-    /// Time of the whole run [s].
-    wall_s: f64,
-    estimate: Option<Estimate>,
-    /// Why early, if it did.
-    failure: Option<Failure>,
 }

@@ -10,8 +10,7 @@ use fret_core::study::QuantityReader;
 
 use crate::failure::Failure;
 use crate::progress::Progress;
-use fret_results::ResultFolder;
-use fret_results::Tally;
+use fret_results::{ResultFolder, Tally};
 
 /// Somebody else who hears about a run, and may stop it.
 pub type Guest<'a> = dyn Observer + Send + 'a;

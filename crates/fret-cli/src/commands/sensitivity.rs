@@ -19,7 +19,7 @@ use crate::arguments::SensitivityArguments;
 use crate::failure::Failure;
 use crate::figures::figure;
 use crate::interrupt;
-use crate::manner::Steps;
+use crate::manner::Listener;
 use crate::scatter::Scatter;
 use crate::sweep::kinds::kind_of;
 use crate::table::Columns;
@@ -44,7 +44,9 @@ pub fn sensitivity(arguments: &SensitivityArguments) -> Result<Answer, Failure> 
     let request = Request { of, by, direction: None };
     let folder = arguments.manner.out.as_deref();
     let folder = folder.map(|folder| folder_for_answers(folder, &[RECORD], "a sensitivity")).transpose()?;
-    let found = pool.install(|| gradient(&plan, &request, &mut Steps(&arguments.manner))).map_err(refused)?;
+    let found = pool
+        .install(|| gradient(&plan, &request, &mut Listener::telling(&arguments.manner)))
+        .map_err(refused)?;
     let spreads = spreads(&found, &arguments.scatter)?;
     let units = InUnits::of(&plan.case);
     let mut record = record(&found, &units);
@@ -53,7 +55,7 @@ pub fn sensitivity(arguments: &SensitivityArguments) -> Result<Answer, Failure> 
     }
     let mut written = None;
     if let Some(folder) = folder {
-        arguments.manner.write(&folder.join(RECORD), format!("{record:#}\n").as_bytes())?;
+        arguments.manner.write_json(&folder.join(RECORD), &record)?;
         arguments.manner.write(&folder.join("sensitivity.csv"), csv(&found, &units).as_bytes())?;
         written = Some(format!("written to {}", folder.display()));
     }
@@ -70,8 +72,7 @@ struct Spread<'a> {
 
 /// Of every result; none without a scatter of numbers.
 fn spreads<'a>(found: &'a Sensitivities, scatter: &'a [Scatter]) -> Result<Vec<Spread<'a>>, Failure> {
-    let refused =
-        |what: String| Failure::Call(what, "one --scatter for each number, also of --by".to_owned());
+    let refused = |what: String| Failure::call(what, "one --scatter for each number, also of --by");
     let mut places = Vec::new();
     let mut deviations = Vec::new();
     for Scatter { path, deviation, relative } in scatter {
@@ -135,12 +136,11 @@ fn usual_results(plan: &Plan) -> Vec<String> {
 fn refused(error: SensitivityError) -> Failure {
     match error {
         SensitivityError::Run(error) => Failure::Unsolved(error),
-        SensitivityError::Parameter { .. } => Failure::Call(
+        SensitivityError::Parameter { .. } => Failure::call(
             error.to_string(),
-            "fret sensitivity CASE without --by lists all numbers of the case by which there are derivatives"
-                .to_owned(),
+            "fret sensitivity CASE without --by lists all numbers of the case by which there are derivatives",
         ),
-        other => Failure::Call(other.to_string(), "fret sensitivity --help tells what is covered".to_owned()),
+        other => Failure::call(other.to_string(), "fret sensitivity --help tells what is covered"),
     }
 }
 
@@ -186,36 +186,27 @@ impl<'a> InUnits<'a> {
     }
 
     fn named(&self, kind: &str) -> Option<String> {
-        let unit = Units::after(self.units, kind, self.dimension);
-        Some(unit.trim_start().to_owned()).filter(|unit| !unit.is_empty())
+        Units::unit(self.units, kind, self.dimension)
     }
 }
 
 /// The answer for programs: of every result its value, and its derivatives by path.
 fn record(found: &Sensitivities, units: &InUnits<'_>) -> Value {
-    let parameters: Map<String, Value> =
-        found.parameters.iter().map(|entry| (entry.path().to_owned(), json!(entry.value()))).collect();
-    let of_numbers: Map<String, Value> = found
-        .parameters
-        .iter()
-        .map(|entry| (entry.path().to_owned(), json!(units.of_number(entry.path()))))
-        .collect();
+    let by_path = |of: &dyn Fn(usize) -> Value| -> Map<String, Value> {
+        let entries = found.parameters.iter().enumerate();
+        entries.map(|(place, entry)| (entry.path().to_owned(), of(place))).collect()
+    };
     let of = |gradient: &Gradient| {
-        let (mut by, mut logarithms) = (Map::new(), Map::new());
-        for (entry, derivative) in found.parameters.iter().zip(&gradient.by) {
-            by.insert(entry.path().to_owned(), json!(derivative));
-            let found = logarithmic(*derivative, gradient.value, entry.value());
-            logarithms.insert(entry.path().to_owned(), json!(found));
-        }
-        let by_path = |by: &Vec<f64>| -> Map<String, Value> {
-            found.parameters.iter().zip(by).map(|(entry, by)| (entry.path().to_owned(), json!(by))).collect()
+        let others = gradient.on_the_other_side.as_ref();
+        let by_logarithms = |place: usize| {
+            json!(logarithmic(gradient.by[place], gradient.value, found.parameters[place].value()))
         };
         json!({
             "value": gradient.value,
             "unit": units.of_result(&gradient.of),
-            "derivatives": by,
-            "logarithmic_derivatives": logarithms,
-            "derivatives_on_the_other_side": gradient.on_the_other_side.as_ref().map(by_path),
+            "derivatives": by_path(&|place| json!(gradient.by[place])),
+            "logarithmic_derivatives": by_path(&by_logarithms),
+            "derivatives_on_the_other_side": others.map(|by| by_path(&|place| json!(by[place]))),
         })
     };
     let gradients: Map<String, Value> =
@@ -226,8 +217,8 @@ fn record(found: &Sensitivities, units: &InUnits<'_>) -> Value {
     let direction = if found.direction == Direction::Backward { "backward" } else { "forward" };
     json!({
         "status": "computed",
-        "parameters": parameters,
-        "units_of_parameters": of_numbers,
+        "parameters": by_path(&|place| json!(found.parameters[place].value())),
+        "units_of_parameters": by_path(&|place| json!(units.of_number(found.parameters[place].path()))),
         "of": gradients,
         "near_a_change_of_state": near,
         "direction": direction,
@@ -236,10 +227,8 @@ fn record(found: &Sensitivities, units: &InUnits<'_>) -> Value {
 
 /// The answer as a file: a row for each result and number.
 fn csv(found: &Sensitivities, units: &InUnits<'_>) -> String {
-    let rows = found
-        .gradients
-        .iter()
-        .flat_map(|gradient| (0..gradient.by.len()).map(move |place| (gradient, place)));
+    let numbers = |gradient| (0..found.parameters.len()).map(move |place| (gradient, place));
+    let rows = found.gradients.iter().flat_map(numbers);
     Columns::<(&Gradient, usize)>::new()
         .column("result", "", |(gradient, _)| gradient.of.clone())
         .column("value", "", |(gradient, _)| gradient.value)
@@ -272,16 +261,11 @@ fn table(found: &Sensitivities, units: &InUnits<'_>) -> String {
         let others = gradient.on_the_other_side.as_ref();
         let head = if others.is_some() { "  other side" } else { "" };
         let _ = writeln!(text, "  {:<width$}  {:>12}  {:>12}{head}", "by", "d ln / d ln", "derivative");
-        let mut rows: Vec<_> = found
-            .parameters
-            .iter()
-            .zip(&gradient.by)
-            .enumerate()
-            .map(|(place, (entry, by))| {
-                let share = others.map(|others| share_of_events(*by, others[place]));
-                (entry, *by, logarithmic(*by, gradient.value, entry.value()), share)
-            })
-            .collect();
+        let row = |(place, (entry, by)): (usize, (_, &f64))| {
+            let share = others.map(|others| share_of_events(*by, others[place]));
+            (entry, *by, logarithmic(*by, gradient.value, found.parameters[place].value()), share)
+        };
+        let mut rows: Vec<_> = found.parameters.iter().zip(&gradient.by).enumerate().map(row).collect();
         rows.sort_by(|one, other| {
             let size = |found: Option<f64>| found.map_or(0.0, f64::abs);
             size(other.2).total_cmp(&size(one.2))

@@ -1,7 +1,6 @@
 //! `fret completions` and `fret man`: what shells and `man` want of the command line, from the same words as its help.
 
 use std::fs;
-use std::io::{self, Write};
 use std::path::Path;
 
 use clap::CommandFactory;
@@ -10,7 +9,7 @@ use serde_json::json;
 
 use crate::arguments::Arguments;
 use crate::failure::{Failure, Unwritten};
-use crate::terminal::Answer;
+use crate::terminal::{Answer, to_standard_output};
 
 /// Writes the completions for a shell to standard output.
 pub fn completions(shell: Shell) -> Result<(), Failure> {
@@ -46,15 +45,4 @@ fn page(command: clap::Command, title: &str, path: &Path) -> Result<Vec<u8>, Fai
     let mut page = Vec::new();
     clap_mangen::Man::new(command).title(title).render(&mut page).map_err(Unwritten::at(path))?;
     Ok(page)
-}
-
-/// Bytes as they are: neither is for the eye, and what a shell reads must not be changed.
-fn to_standard_output(bytes: &[u8]) -> Result<(), Failure> {
-    let mut stdout = io::stdout().lock();
-    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Unwritten::at(Path::new("standard output"))(error).into())
-        }
-        _ => Ok(()),
-    }
 }

@@ -14,6 +14,7 @@ use fret_core::subsurface::{
 };
 use serde_json::json;
 
+use super::below::Below;
 use super::loaded_surfaces::{loaded_surfaces, reach, stopped};
 use super::stress_record::StressRecord;
 use super::stress_tables::StressTables;
@@ -25,16 +26,19 @@ use crate::manner::{Manner, place_of_answer};
 use crate::terminal::Answer;
 use fret_results::Results;
 
+/// A stress by its name in a volume.
+type Stress = (&'static str, fn(&StressField, usize, usize) -> f64);
+
 /// Fields of a volume: stresses.
-const STRESSES: [Field; 8] = [
-    ("xx", "pressure"),
-    ("yy", "pressure"),
-    ("zz", "pressure"),
-    ("xy", "pressure"),
-    ("xz", "pressure"),
-    ("yz", "pressure"),
-    ("von_mises", "pressure"),
-    ("tension", "pressure"),
+const STRESSES: [Stress; 8] = [
+    ("xx", |field, i, j| field.components[0][[i, j]]),
+    ("yy", |field, i, j| field.components[1][[i, j]]),
+    ("zz", |field, i, j| field.components[2][[i, j]]),
+    ("xy", |field, i, j| field.components[3][[i, j]]),
+    ("xz", |field, i, j| field.components[4][[i, j]]),
+    ("yz", |field, i, j| field.components[5][[i, j]]),
+    ("von_mises", |field, i, j| field.at(i, j).von_mises()),
+    ("tension", |field, i, j| field.at(i, j).principal().values[0]),
 ];
 /// And displacements, in point contacts.
 const DISPLACEMENTS: [Field; 3] =
@@ -46,8 +50,8 @@ pub fn stress(arguments: &StressArguments) -> Result<Answer, Failure> {
     let run = Results::read(&arguments.folder)?;
     if run.case().wear.as_ref().is_some_and(|wear| wear.thinning_tolerance.is_some()) {
         let why = "the layers of this run became thinner by wear (wear.thinning_tolerance), and stresses below are those of unworn layers";
-        let way_out = "a case with the thinner coating, pressed alike".to_owned();
-        return Err(Failure::Call(format!("{}: {why}", arguments.folder.display()), way_out));
+        let way_out = "a case with the thinner coating, pressed alike";
+        return Err(Failure::call(format!("{}: {why}", arguments.folder.display()), way_out));
     }
     let request = requested(arguments, &run);
     let pool = arguments.threads.pool()?;
@@ -89,33 +93,35 @@ fn computed(
     let started = Instant::now();
     let Body::Elastic(half_space) = request.body.of(&run.case().bodies) else {
         let other = if request.body == Side::Lower { "upper" } else { "lower" };
-        return Err(Failure::Call(
+        return Err(Failure::call(
             format!("the {} body is rigid: there is no stress in it", request.body.name()),
             format!("--body {other}"),
         ));
     };
     let surfaces = loaded_surfaces(folder, run, request)?;
     let points = match &request.depths {
-        Some(depths) => depth_points(half_space, depths)
-            .map_err(|error| Failure::Call(error.to_string(), "or --auto".to_owned()))?,
+        Some(depths) => {
+            depth_points(half_space, depths).map_err(|error| Failure::call(error.to_string(), "or --auto"))?
+        }
         None => automatic_depths(half_space, reach(run, &surfaces), AUTOMATIC),
     };
     let place = place_of_answer(manner, folder, ("stress", "stress.json", "stresses of a run"))?;
     let constants = run.fatigue_constants(request);
-    let mut tables = StressTables::new(run, request, (half_space, &constants), &points, &surfaces);
+    let (constants, points, surfaces) = (&constants, &points[..], &surfaces[..]);
+    let mut tables = StressTables::new(Below { run, request, half_space, constants, points, surfaces });
     // where one axis alone has no end, they need a datum
     let has_displacements = run.case().endless_axis().is_none();
     let mut volume = if request.volume {
         let depths: Vec<f64> = points.iter().map(|point| point.depth).collect();
         let name = format!("volume-{:05}.vtr", surfaces.last().map_or(0, |surface| surface.increment));
         let displacements: &[_] = if has_displacements { &DISPLACEMENTS } else { &[] };
-        let fields = [&STRESSES[..], displacements].concat();
+        let fields = [&STRESSES.map(|(name, _)| (name, "pressure"))[..], displacements].concat();
         Some(Volume::create(&place.join(name), run.grid(), &depths, &fields, run.units())?)
     } else {
         None
     };
     let mut unwritten = None;
-    survey(half_space, run.grid(), run.case().periodic, &points, &surfaces, |point, surface, field| {
+    survey(half_space, run.grid(), run.case().periodic, points, surfaces, |point, surface, field| {
         if interrupt::is_asked() {
             return false;
         }
@@ -143,7 +149,7 @@ fn computed(
     }
     if let Some(mut volume) = volume {
         if let (true, Some(surface)) = (has_displacements, surfaces.last()) {
-            displace(&mut volume, (run, half_space), &points, surface)?;
+            displace(&mut volume, (run, half_space), points, surface)?;
         }
         volume.close()?;
     }
@@ -172,11 +178,7 @@ fn displace(
 }
 
 fn fill(volume: &mut Volume, point: usize, field: &StressField) -> Result<(), Unwritten> {
-    for (component, (name, _)) in STRESSES[..6].iter().enumerate() {
-        volume.plane(name, point, |i, j| field.components[component][[i, j]])?;
-    }
-    volume.plane("von_mises", point, |i, j| field.at(i, j).von_mises())?;
-    volume.plane("tension", point, |i, j| field.at(i, j).principal().values[0])
+    STRESSES.iter().try_for_each(|(name, of)| volume.plane(name, point, |i, j| of(field, i, j)))
 }
 
 /// Stresses of a run that has just ended, as its case asks; nothing where it does not.

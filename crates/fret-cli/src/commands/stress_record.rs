@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use fret_core::units::Units;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::stress_kinds::kind_of_stress;
 use crate::figures::{UNLIMITED, bounded};
 use crate::table::{Cell, Columns};
 
@@ -130,6 +131,42 @@ pub struct ParameterRecord {
     pub critical_distance: Option<CriticalDistance>,
 }
 
+impl ParameterRecord {
+    /// What is told of the parameter of a name; `figure` prints a number beside the kind of its unit.
+    pub fn words(&self, name: &str, figure: impl Fn(f64, &str) -> String) -> String {
+        let own = |value: f64| figure(value, kind_of_stress(name));
+        let [x, y, depth] = [self.x, self.y, self.depth].map(|place| figure(place, "length"));
+        let mut words = format!("{:<20} {:<12} at x {x:<12} ", name.replace('_', " "), own(self.largest));
+        if self.layer.is_none() {
+            return words + "surface";
+        }
+        words += &format!("y {y:<12} depth {depth:<12}");
+        let in_cycles = |cycles: Option<Bounded>| cycles.map(|cycles| bounded(cycles.0) + " cycles");
+        if let Some(Bounded(cycles)) = self.cycles {
+            words += &format!(" cycles to initiation {}", bounded(cycles));
+        }
+        if let Some(Bounded(factor)) = self.factor_of_safety {
+            words += &format!(" factor of safety {}", bounded(factor));
+        }
+        if let Some(cell) = self.largest_cell.filter(|cell| *cell != self.largest) {
+            let cycles = in_cycles(self.largest_cell_cycles).map(|cycles| format!(", {cycles}"));
+            let cycles = cycles.unwrap_or_default();
+            words += &format!(" (extrapolated to the rim; largest cell {}{cycles})", own(cell));
+        }
+        words.truncate(words.trim_end().len());
+        if let Some(CriticalDistance { distance, point, line }) = &self.critical_distance {
+            let [point, line] = [point, line].map(|at| {
+                own(at.value) + &in_cycles(at.cycles).map_or(String::new(), |cycles| format!(" ({cycles})"))
+            });
+            let distance = figure(*distance, "length");
+            words += &format!(
+                "\n    at the critical distance {distance}: {point} by the point method, {line} by the line method"
+            );
+        }
+        words
+    }
+}
+
 /// A parameter by the theory of critical distances.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct CriticalDistance {
@@ -157,50 +194,50 @@ pub struct AtDistance {
 
 /// What becomes of a short crack.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(untagged)]
-pub enum CrackRecord {
-    /// It was followed.
-    Followed {
-        /// One word.
-        fate: String,
-        /// Where it starts [length].
-        x: f64,
-        /// Where it starts [length].
-        y: f64,
-        /// From the normal of the surface [degrees].
-        angle: f64,
-        /// Unit vector in the surface that the angle turns to.
-        towards: [f64; 2],
-        /// Its length at the end [length].
-        length: f64,
-        /// Cycles until then.
-        cycles: Option<f64>,
-    },
-    /// There is none.
-    None {
-        /// The word "none".
-        fate: String,
-        /// Why.
-        reason: String,
-    },
+pub struct CrackRecord {
+    /// One word; "none" where there is none.
+    pub fate: String,
+    /// Why there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// Its course, where it was followed.
+    #[serde(flatten)]
+    pub course: Option<CrackFollowed>,
+}
+
+/// A crack that was followed.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct CrackFollowed {
+    /// Where it starts [length].
+    pub x: f64,
+    /// Where it starts [length].
+    pub y: f64,
+    /// From the normal of the surface [degrees].
+    pub angle: f64,
+    /// Unit vector in the surface that the angle turns to.
+    pub towards: [f64; 2],
+    /// Its length at the end [length].
+    pub length: f64,
+    /// Cycles until then.
+    pub cycles: Option<f64>,
 }
 
 impl CrackRecord {
     /// What becomes of it, in words; `figure` prints a number beside the kind of its unit.
     pub fn words(&self, figure: impl Fn(f64, &str) -> String) -> String {
-        let (fate, [x, y, length], angle, cycles) = match self {
-            Self::None { reason, .. } => return format!("crack: none: {reason}"),
-            Self::Followed { fate, x, y, angle, length, cycles, .. } => {
-                (fate, [x, y, length].map(|value| figure(*value, "length")), figure(*angle, ""), cycles)
-            }
+        let Some(course) = &self.course else {
+            return format!("crack: none: {}", self.reason.as_deref().unwrap_or_default());
         };
-        let end = match fate.as_str() {
+        let [x, y, length] = [course.x, course.y, course.length].map(|value| figure(value, "length"));
+        let end = match self.fate.as_str() {
             "does_not_grow" => format!("does not grow: below the threshold at {length}"),
             "stops" => format!("stops at length {length}"),
             "fractures" => format!("reaches the toughness at {length}"),
             _ => format!("grows to {length}"),
         };
-        let cycles = cycles.map_or(String::new(), |cycles| format!(" after {} cycles", figure(cycles, "")));
+        let angle = figure(course.angle, "");
+        let cycles = course.cycles.map(|cycles| format!(" after {} cycles", figure(cycles, "")));
+        let cycles = cycles.unwrap_or_default();
         format!("crack from x {x} y {y}, {angle} degrees from the normal: {end}{cycles}")
     }
 }
@@ -233,6 +270,20 @@ pub struct FilmRecord {
 }
 
 impl FilmRecord {
+    /// What is told of it to a person; `figure` prints a number beside the kind of its unit.
+    pub fn words(&self, figure: impl Fn(f64, &str) -> String) -> String {
+        let sense = if self.stress > 0.0 { "tension" } else { "compression" };
+        let released = |energy: f64| figure(energy, "pressure x length");
+        let unknown = "- (needs lower.coatings[..].fatigue.channelling_factor)";
+        let channelling = self.channelling.map_or_else(|| unknown.to_owned(), released);
+        let [x, y] = [self.x, self.y].map(|place| figure(place, "length"));
+        format!(
+            "coating, mean {sense:<11} {:<12} at x {x:<12} y {y:<12} energy released: channelling {channelling}, delamination {}",
+            figure(self.stress, "pressure"),
+            released(self.delamination)
+        )
+    }
+
     /// What is told of it.
     pub fn columns<'a>() -> Columns<'a, Self> {
         let factor = |factor: Option<Bounded>| factor.map(|factor| bounded(factor.0));

@@ -3,22 +3,19 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use fret_core::case::StressRequest;
-use fret_core::model::{Base, HalfSpace};
-use fret_core::subsurface::fatigue::LayerConstants;
+use fret_core::model::Base;
 use fret_core::subsurface::largest::look;
-use fret_core::subsurface::{DepthPoint, Largest, LoadedSurface, Measure, StressField};
-use serde_json::json;
+use fret_core::subsurface::{DepthPoint, Largest, Measure, StressField};
 
-use super::fatigue::{Fatigue, Finished, Picture};
+use super::below::Below;
+use super::fatigue::{Fatigue, Picture};
 use super::stress_record::{LargestRecord, StressRecord};
 use crate::commands::stress_kinds::{kind_of_stress, stress_called};
-use crate::drawing::section::Section;
+use crate::drawing::Section;
 use crate::failure::Failure;
 use crate::figures::{counted, duration, indented};
 use crate::manner::Manner;
 use crate::table::Columns;
-use fret_results::Results;
 
 /// More sections than this are not drawn.
 const MOST_SECTIONS: usize = 12;
@@ -28,11 +25,7 @@ type AtDepth = (usize, DepthPoint, [Option<f64>; Measure::ALL.len()]);
 
 /// What is noted on the way, and written at the end.
 pub struct StressTables<'a> {
-    run: &'a Results,
-    request: &'a StressRequest,
-    half_space: &'a HalfSpace,
-    points: &'a [DepthPoint],
-    surfaces: &'a [LoadedSurface],
+    below: Below<'a>,
     interfaces: Vec<f64>,
     largest: Vec<Largest>,
     /// Rows of `depths.csv`.
@@ -41,51 +34,36 @@ pub struct StressTables<'a> {
     row: usize,
     /// Von Mises along that row, `[surface][point][i]`.
     sections: Vec<Vec<Vec<f64>>>,
-    fatigue: Option<Fatigue<'a>>,
+    fatigue: Fatigue<'a>,
 }
 
 impl<'a> StressTables<'a> {
-    pub fn new(
-        run: &'a Results,
-        request: &'a StressRequest,
-        (half_space, constants): (&'a HalfSpace, &'a LayerConstants),
-        points: &'a [DepthPoint],
-        surfaces: &'a [LoadedSurface],
-    ) -> Self {
-        let row = run.grid().cells()[1] / 2;
-        let ([first, last], cyclic) = run.last_cycle();
-        let cycle: Vec<usize> = surfaces
-            .iter()
-            .enumerate()
-            .filter(|(_, surface)| (first..=last).contains(&surface.increment))
-            .map(|(index, _)| index)
-            .collect();
-        let cycle = if cyclic { cycle } else { Vec::new() };
-        let fatigue = Some(Fatigue::new(run, half_space, constants, (points, surfaces), cycle, row));
+    pub fn new(below: Below<'a>) -> Self {
+        let row = below.run.grid().cells()[1] / 2;
+        let ([first, last], cyclic) = below.run.last_cycle();
+        let is_of_cycle =
+            |index: &usize| cyclic && (first..=last).contains(&below.surfaces[*index].increment);
+        let cycle = (0..below.surfaces.len()).filter(is_of_cycle).collect();
         Self {
-            run,
-            request,
-            half_space,
-            points,
-            surfaces,
-            interfaces: half_space.interfaces(),
+            below,
+            interfaces: below.half_space.interfaces(),
             largest: Vec::new(),
             by_depth: Vec::new(),
             row,
-            sections: vec![Vec::new(); surfaces.len()],
-            fatigue,
+            sections: vec![Vec::new(); below.surfaces.len()],
+            fatigue: Fatigue::new(below, cycle, row),
         }
     }
 
     pub fn look(&mut self, point: usize, surface: usize, field: &StressField) {
-        let place = self.points[point];
-        let increment = self.surfaces[surface].increment;
+        let place = self.below.points[point];
+        let above = &self.below.surfaces[surface];
         let is_interface = self.interfaces.contains(&place.depth);
         let mut here = Vec::new();
-        let pressure = (place.depth == 0.0).then_some(&self.surfaces[surface].pressure);
-        look(&mut here, field, place, is_interface, increment, pressure);
+        let pressure = (place.depth == 0.0).then_some(&above.pressure);
+        look(&mut here, field, place, is_interface, above.increment, pressure);
         let value = |measure| here.iter().find(|found| found.measure == measure).map(|found| found.value);
-        self.by_depth.push((increment, place, Measure::ALL.map(value)));
+        self.by_depth.push((above.increment, place, Measure::ALL.map(value)));
         for found in here {
             match self.largest.iter_mut().find(|known| known.measure == found.measure) {
                 Some(known) if found.value > known.value => *known = found,
@@ -93,17 +71,9 @@ impl<'a> StressTables<'a> {
                 None => self.largest.push(found),
             }
         }
-        let nx = self.run.grid().cells()[0];
+        let nx = self.below.run.grid().cells()[0];
         self.sections[surface].push((0..nx).map(|i| field.at(i, self.row).von_mises()).collect());
-        if let Some(fatigue) = &mut self.fatigue {
-            fatigue.look(point, surface, field);
-        }
-    }
-
-    /// Where along x or y a largest value was found [length].
-    fn place_of(&self, found: &Largest, axis: usize) -> f64 {
-        let grid = self.run.grid();
-        grid.centre(axis, found.cell[axis]) + found.off[axis] * grid.spacing()[axis]
+        self.fatigue.look(point, surface, field);
     }
 
     pub fn written(
@@ -111,32 +81,36 @@ impl<'a> StressTables<'a> {
         (place, manner): (&Path, &Manner),
         wall_s: f64,
     ) -> Result<(StressRecord, String), Failure> {
-        let largest = self.largest.iter().map(|found| LargestRecord {
-            measure: found.measure.name().to_owned(),
-            value: found.value,
-            increment: found.increment,
-            x: self.place_of(found, 0),
-            y: self.place_of(found, 1),
-            depth: found.point.depth,
-            layer: self.layer_name(found.point.layer),
+        let Below { run, request, points, surfaces, .. } = self.below;
+        let largest = self.largest.iter().map(|found| {
+            let [x, y] = self.below.place(found.cell, found.off);
+            LargestRecord {
+                measure: found.measure.name().to_owned(),
+                value: found.value,
+                increment: found.increment,
+                x,
+                y,
+                depth: found.point.depth,
+                layer: self.layer_name(found.point.layer),
+            }
         });
         let largest = largest.collect();
-        let fatigue = self.fatigue.take().map_or_else(|| Ok(Finished::default()), Fatigue::finished)?;
+        let fatigue = self.fatigue.finished()?;
         let record = StressRecord {
             status: "computed".to_owned(),
-            unfinished: self.run.unfinished(),
-            stage_ends_alone: self.run.stage_ends_alone(),
-            body: self.request.body.name().to_owned(),
-            units: self.run.units().cloned(),
-            increments: self.surfaces.iter().map(|surface| surface.increment).collect(),
-            depths: self.points.iter().map(|point| point.depth).collect(),
-            layers: self.points.iter().map(|point| point.layer).collect(),
+            unfinished: run.unfinished(),
+            stage_ends_alone: run.stage_ends_alone(),
+            body: request.body.name().to_owned(),
+            units: run.units().cloned(),
+            increments: surfaces.iter().map(|surface| surface.increment).collect(),
+            depths: points.iter().map(|point| point.depth).collect(),
+            layers: points.iter().map(|point| point.layer).collect(),
             largest,
             fatigue: fatigue.fatigue,
             coating: fatigue.coating,
             wall_s,
         };
-        manner.write(&place.join("stress.json"), format!("{:#}\n", json!(record)).as_bytes())?;
+        manner.write_json(&place.join("stress.json"), &record)?;
         let mut columns = Columns::<AtDepth>::new()
             .column("increment", "", |(increment, ..)| *increment)
             .column("depth", "length", |(_, point, _)| point.depth)
@@ -145,19 +119,19 @@ impl<'a> StressTables<'a> {
             let kind = kind_of_stress(measure.name());
             columns = columns.column(measure.name(), kind, move |(_, _, values)| values[place]);
         }
-        let by_depth = columns.csv(self.run.units(), &self.by_depth);
+        let by_depth = columns.csv(run.units(), &self.by_depth);
         manner.write(&place.join("depths.csv"), by_depth.as_bytes())?;
         for (name, content) in &fatigue.files {
             manner.write(&place.join(name), content.as_bytes())?;
         }
-        self.draw((place, manner), &self.run.grid().centres(0).to_vec(), &fatigue.pictures)?;
+        self.draw((place, manner), &run.grid().centres(0).to_vec(), &fatigue.pictures)?;
         let table = self.table(&record, place, &fatigue.table);
         Ok((record, table))
     }
 
     fn layer_name(&self, layer: usize) -> String {
-        let coatings = self.half_space.coatings().len();
-        match (layer < coatings, self.half_space.base()) {
+        let coatings = self.below.half_space.coatings().len();
+        match (layer < coatings, self.below.half_space.base()) {
             (true, _) if coatings == 1 => "coating".to_owned(),
             (true, _) => format!("coating {}", layer + 1),
             (false, Base::Elastic(_)) => "substrate".to_owned(),
@@ -168,25 +142,26 @@ impl<'a> StressTables<'a> {
     /// Sections of the increments (of many: of the last and of the one with the largest von Mises stress), and of what fatigue
     /// shows.
     fn draw(&self, (place, manner): (&Path, &Manner), x: &[f64], fatigue: &[Picture]) -> Result<(), Failure> {
-        let depths: Vec<f64> = self.points.iter().map(|point| point.depth).collect();
+        let Below { run, surfaces, .. } = self.below;
+        let depths: Vec<f64> = self.below.points.iter().map(|point| point.depth).collect();
         if !depths.windows(2).all(|pair| pair[0] <= pair[1]) || depths.first() == depths.last() {
             return Ok(()); // no section without rising depths
         }
         let worst = self.largest.iter().find(|found| found.measure == Measure::VonMises);
-        let last = self.surfaces.len() - 1;
+        let last = surfaces.len() - 1;
         let is_shown = |index: usize| {
-            let increment = self.surfaces[index].increment;
+            let increment = surfaces[index].increment;
             last < MOST_SECTIONS || index == last || worst.is_some_and(|worst| worst.increment == increment)
         };
-        let title = if self.run.case().title.is_empty() { "contact" } else { &self.run.case().title };
+        let title = if run.case().title.is_empty() { "contact" } else { &run.case().title };
         let high = self.sections.iter().flatten().flatten().copied().fold(0.0, f64::max);
         let section = |subject: &str, quantity: (&str, &str), values: &[Vec<f64>], range| {
-            let (units, interfaces) = (self.run.units(), &self.interfaces);
+            let (units, interfaces) = (run.units(), &self.interfaces);
             Section { title, subject, quantity, units, x, depths: &depths, values, interfaces, range }.svg()
         };
-        let body = self.request.body.name();
+        let body = self.below.request.body.name();
         for index in (0..=last).filter(|&index| is_shown(index)) {
-            let increment = self.surfaces[index].increment;
+            let increment = surfaces[index].increment;
             let subject = format!("section at y = 0, increment {increment}, {body} body");
             let quantity = ("von Mises stress", "pressure");
             let svg = section(&subject, quantity, &self.sections[index], Some([0.0, high]))?;
@@ -211,7 +186,7 @@ impl<'a> StressTables<'a> {
                 counted(record.increments.len(), "increment"),
             );
         let largest = LargestRecord::columns(|measure| measure.replace('_', " "));
-        text += &indented(&largest.text(&[18, 12, 10, 12, 12, 12], self.run.units(), &record.largest));
+        text += &indented(&largest.text(&[18, 12, 10, 12, 12, 12], self.below.run.units(), &record.largest));
         if !fatigue.is_empty() {
             let _ = write!(text, "\n{fatigue}");
         }

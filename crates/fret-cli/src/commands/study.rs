@@ -15,16 +15,15 @@ use crate::arguments::{StudyArguments, StudyRequest};
 use crate::defect;
 use crate::failure::Failure;
 use crate::figures::{counted, duration};
-use crate::interrupt::{self, Listener};
-use crate::manner::Steps;
+use crate::interrupt;
+use crate::manner::Listener;
 use crate::report::study::STUDY;
 use crate::study::levels::{LEVELS, Levels};
 use crate::study::record::StudyRecord;
 use crate::study::table::ErrorColumn;
 use crate::study::{picture, reference, table, words};
 use crate::terminal::Answer;
-use fret_results::CaseFile;
-use fret_results::folder_for_answers;
+use fret_results::{CaseFile, folder_for_answers};
 
 /// Accuracies a choice is told for.
 const ACCURACIES: [f64; 3] = [1e-2, 1e-3, 1e-4];
@@ -50,8 +49,8 @@ pub fn study(arguments: &StudyArguments) -> Result<Answer, Failure> {
     let manner = &arguments.manner;
     let say = |text: &str| manner.say(text);
     let title = case_file.title(&plan.case);
-    let studied =
-        pool.install(|| studied((&title, &plan), question, Some(&kept), &say, &mut Steps(manner)))?;
+    let studied = pool
+        .install(|| studied((&title, &plan), question, Some(&kept), &say, &mut Listener::telling(manner)))?;
     let Studied { record, study, lines, measured } = &studied;
     manner.write(&folder.join("study.csv"), table::csv(&record.lines).as_bytes())?;
     manner.write(
@@ -59,7 +58,7 @@ pub fn study(arguments: &StudyArguments) -> Result<Answer, Failure> {
         picture::picture(&title, plan.case.dimension(), study, lines).as_bytes(),
     )?;
     let answer = json!(record);
-    manner.write(&folder.join(STUDY), format!("{answer:#}\n").as_bytes())?;
+    manner.write_json(&folder.join(STUDY), &answer)?;
     kept.remove();
     let text = format!(
         "{title}\n{measured}\n\n{}\n\n{}\n\nresults    {}",
@@ -123,8 +122,7 @@ pub fn studied(
     let choice = words::choice(
         &advice,
         &reference,
-        study.resolutions().cells.len() > 1,
-        study.resolutions().increments.len() > 1,
+        study.resolutions(),
         (dimension, plan.case.cells[1] as f64 / plan.case.cells[0] as f64),
     );
     let record = StudyRecord::new(title, &reference, (&study, &lines), (&advice, &choice), &unsolved);
@@ -145,7 +143,7 @@ fn resolutions(request: &StudyRequest, plan: &Plan) -> Result<Resolutions, Failu
         return Ok(Resolutions::halving(plan));
     }
     Resolutions::new(plan, cells, increments, tolerances)
-        .map_err(|error| Failure::Call(error.to_string(), "fret study --help".to_owned()))
+        .map_err(|error| Failure::call(error.to_string(), "fret study --help"))
 }
 
 /// Refuses a study whose finest level the machine has not the memory for.
@@ -154,7 +152,7 @@ fn fits_memory(resolutions: &Resolutions, plan: &Plan) -> Result<(), Failure> {
     let too_many = |error: &dyn std::fmt::Display| {
         let cells = plan.grid.dimension().written(finest.cells);
         let message = format!("--cells {}: a grid of {cells} cells {error}", finest.cells[0]);
-        Failure::Call(message, "--cells with smaller numbers".to_owned())
+        Failure::call(message, "--cells with smaller numbers")
     };
     let planned = finest.planned(plan).map_err(|error| too_many(&error))?;
     memory::check(planned.memory_bytes).map_err(|error| too_many(&error))
@@ -178,10 +176,9 @@ impl Against {
             None => Ok(Self::Best(ClosedForm::of(plan))),
             Some("finest") => Ok(Self::Finest),
             Some("analytic") => ClosedForm::of(plan).map(Self::Analytic).ok_or_else(|| {
-                Failure::Call(
-                    "--against analytic: no closed form is available for this case".to_owned(),
-                    "without --against Richardson extrapolation is used; --against finest compares with the finest level"
-                        .to_owned(),
+                Failure::call(
+                    "--against analytic: no closed form is available for this case",
+                    "without --against Richardson extrapolation is used; --against finest compares with the finest level",
                 )
             }),
             Some(file) => {
@@ -231,9 +228,9 @@ fn all_levels(
             counted(variation.increments.iter().sum(), "increment"),
             variation.tolerance
         );
-        let varied = variation.planned(plan).map_err(|error| {
-            Failure::Call(format!("{cells} cells: {error}"), "fret study --help".to_owned())
-        })?;
+        let varied = variation
+            .planned(plan)
+            .map_err(|error| Failure::call(format!("{cells} cells: {error}"), "fret study --help"))?;
         if let Some(level) = kept.and_then(|kept| kept.finished(&varied)) {
             say(&format!("{head}: {}, solved before", duration(level.wall_s)));
             levels.push((*place, level));
@@ -272,7 +269,7 @@ fn timed(plan: &Plan, observer: &mut dyn Observer) -> Result<Level, Failure> {
     let mut best = once(observer)?;
     for _ in 1..TIMES {
         if best.wall_s < QUICK {
-            best.wall_s = best.wall_s.min(once(&mut Listener)?.wall_s);
+            best.wall_s = best.wall_s.min(once(&mut Listener::silent())?.wall_s);
         }
     }
     Ok(best)

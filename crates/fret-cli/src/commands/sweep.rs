@@ -8,24 +8,23 @@ use std::sync::{Condvar, Mutex, PoisonError};
 use std::time::Instant;
 
 use fret_core::case::CaseError;
-use fret_core::history::History;
 use fret_core::machine::memory::{self, Claim, MemoryError};
 use fret_core::plan::{LeaveOut, Plan};
-use fret_core::run::{Observer, RunError, Simulation};
+use fret_core::run::{RunError, Simulation};
 use serde_json::json;
 
 use super::besides::besides;
 use crate::arguments::SweepArguments;
 use crate::failure::{Failure, Told};
 use crate::figures::{counted, duration};
-use crate::interrupt::{self, Keeper, Listener};
-use crate::manner::Manner;
+use crate::interrupt;
+use crate::manner::{Listener, Manner};
+use crate::sweep::columns::columns;
 use crate::sweep::setting::Setting;
-use crate::sweep::{Answer, Besides, Planned, Point, Question, SweepFolder, asks_for_more};
+use crate::sweep::{Answer, Counts, Planned, Question, Spread, SweepFolder, asks_for_more};
 use crate::terminal;
-use crate::threads;
-use fret_results::Origin;
-use fret_results::stem;
+use crate::threads::{self, locked};
+use fret_results::{Origin, stem};
 
 /// Solves all points of a sweep.
 pub fn sweep(arguments: &SweepArguments, as_json: bool, since: Instant) -> Result<(), Told> {
@@ -34,20 +33,24 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool, since: Instant) -> Resul
     let own = || Path::new("results").join(stem(&arguments.sweep, "sweep"));
     let path = arguments.manner.out.clone().unwrap_or_else(own);
     let folder = SweepFolder::open(&path, &question.text, origin.as_ref(), &arguments.manner)?;
-    folder.list(&question)?;
+    let setting = Setting::of(&question);
+    folder.list(&question, &setting)?;
     interrupt::listen();
     let threads = threads::asked(arguments.threads);
     let known: Vec<Option<Answer>> = question.points.iter().map(|point| folder.finished(point)).collect();
-    let board = Board::new(&question, origin, known, &arguments.manner);
+    let board = Board::new((&question, &setting), origin, known, &arguments.manner);
     board.announce(threads);
     let failure = board.work(&folder, threads);
-    let summary = folder.summarise(&question, &board.answers());
+    let answers = board.answers();
+    let columns = columns(&answers);
+    let summary = folder.summarise((&question, &setting), &answers, &columns);
     if let Some(failure) = failure {
         return Err(failure.into());
     }
     let summary = summary?;
-    let spread = folder.spread(&question, &board.answers())?;
-    let counts = board.counts();
+    let spread = Spread::of(&question, &setting, &columns);
+    let spread = spread.map(|spread| folder.spread(&spread)).transpose()?;
+    let counts = Counts::of(&answers);
     let record = json!({
         "status": if counts.unsolved() == 0 { "solved" } else { "some points not solved" },
         "points": question.points.len(),
@@ -90,24 +93,11 @@ fn is_no_answer(failure: &Failure) -> bool {
     lacks_memory(failure) || matches!(failure, Failure::Interrupted(_) | Failure::Unwritten(_))
 }
 
-/// How many points came to what.
-struct Counts {
-    solved: usize,
-    refused: usize,
-    failed: usize,
-}
-
-impl Counts {
-    fn unsolved(&self) -> usize {
-        self.refused + self.failed
-    }
-}
-
 /// What the workers share: the points, the next of them, the answers.
 struct Board<'a> {
     question: &'a Question,
     /// In which units its values are told.
-    setting: Setting,
+    setting: &'a Setting,
     origin: Option<Origin>,
     /// Points to be solved, of equal ones the first.
     open: Vec<usize>,
@@ -136,14 +126,14 @@ struct AtWork<'a>(&'a Board<'a>, Option<Claim>);
 impl Drop for AtWork<'_> {
     fn drop(&mut self) {
         self.1 = None;
-        *self.0.at_work.lock().unwrap_or_else(PoisonError::into_inner) -= 1;
+        *locked(&self.0.at_work) -= 1;
         self.0.freed.notify_all();
     }
 }
 
 impl<'a> Board<'a> {
     fn new(
-        question: &'a Question,
+        (question, setting): (&'a Question, &'a Setting),
         origin: Option<Origin>,
         known: Vec<Option<Answer>>,
         manner: &'a Manner,
@@ -162,7 +152,7 @@ impl<'a> Board<'a> {
         let planned = Planned::of(&question.points, &open, origin.as_ref());
         Self {
             planned,
-            setting: Setting::of(question),
+            setting,
             question,
             origin,
             before: known.iter().flatten().count(),
@@ -207,7 +197,7 @@ impl<'a> Board<'a> {
         let solve = || {
             if let Err(failure) = self.solve_points(folder, each) {
                 self.next.store(self.open.len(), Ordering::Relaxed); // nobody begins another one
-                self.ended.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(failure);
+                locked(&self.ended).get_or_insert(failure);
             }
         };
         std::thread::scope(|scope| {
@@ -217,7 +207,7 @@ impl<'a> Board<'a> {
             }
             solve();
         });
-        self.ended.lock().unwrap_or_else(PoisonError::into_inner).take()
+        locked(&self.ended).take()
     }
 
     fn solve_points(&self, folder: &SweepFolder<'_>, threads: usize) -> Result<(), Failure> {
@@ -225,13 +215,15 @@ impl<'a> Board<'a> {
         while let Some(&number) = self.open.get(self.next.fetch_add(1, Ordering::Relaxed)) {
             let point = &self.question.points[number];
             let solve = || -> Result<Answer, Failure> {
+                let start = self.origin.as_ref().map(|origin| &origin.start);
+                let planned = || point.case_file.planned_leaving_out(LeaveOut::ALL, start);
                 let known = self.planned.plan_of(number);
-                let plan = known.map_or_else(|| self.plan(point), Ok)?;
+                let plan = known.map_or_else(|| self.with_memory(CaseError::lacks_memory, planned), Ok)?;
                 let at_work = self.memory_for(&plan)?;
                 let simulation = Simulation::new(&plan).in_claimed_memory();
                 let asks = asks_for_more(&plan);
-                let observer: &mut dyn Observer = if asks { &mut Keeper } else { &mut Listener };
-                let (history, outcome, common) = self.planned.common.solve(number, simulation, observer);
+                let mut listener = if asks { Listener::keeping() } else { Listener::silent() };
+                let (history, outcome, common) = self.planned.common.solve(number, simulation, &mut listener);
                 outcome?;
                 let answer = Answer::solved(&history, common);
                 drop(at_work);
@@ -239,7 +231,8 @@ impl<'a> Board<'a> {
                     return Ok(answer);
                 }
                 // A mistake of the program in what is asked besides costs the point nothing of what was solved.
-                let more = AssertUnwindSafe(|| self.besides(&folder.beside(point), point, &plan, &history));
+                let more = || besides(&folder.beside(point), point, &plan, &history);
+                let more = AssertUnwindSafe(|| self.with_memory(lacks_memory, more));
                 match catch_unwind(more) {
                     Err(_) => {
                         Ok(answer.asked(Err(Failure::Defect(format!("point {number} ended in a panic")))))
@@ -281,7 +274,7 @@ impl<'a> Board<'a> {
         loop {
             match ask() {
                 Err(error) if lacks_memory(&error) && !is_alone => {
-                    let at_work = self.at_work.lock().unwrap_or_else(PoisonError::into_inner);
+                    let at_work = locked(&self.at_work);
                     is_alone = *at_work == 0;
                     if !is_alone {
                         drop(self.freed.wait(at_work).unwrap_or_else(PoisonError::into_inner));
@@ -292,18 +285,10 @@ impl<'a> Board<'a> {
         }
     }
 
-    /// The plan of a point.
-    fn plan(&self, point: &Point) -> Result<Plan, CaseError> {
-        let start = self.origin.as_ref().map(|origin| &origin.start);
-        self.with_memory(CaseError::lacks_memory, || {
-            point.case_file.planned_leaving_out(LeaveOut::ALL, start)
-        })
-    }
-
     /// Memory for a point, beside the points that are at work: waited for while any of them is.
     fn memory_for(&self, plan: &Plan) -> Result<AtWork<'_>, MemoryError> {
         let kept = if asks_for_more(plan) { plan.kept_bytes } else { 0 };
-        let mut at_work = self.at_work.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut at_work = locked(&self.at_work);
         loop {
             match memory::claim(plan.memory_bytes.saturating_add(kept)) {
                 Ok(claim) => {
@@ -316,21 +301,10 @@ impl<'a> Board<'a> {
         }
     }
 
-    /// What the case of a point asks for besides.
-    fn besides(
-        &self,
-        folder: &Path,
-        point: &Point,
-        plan: &Plan,
-        history: &History,
-    ) -> Result<Besides, Failure> {
-        self.with_memory(lacks_memory, || besides(folder, point, plan, history))
-    }
-
     fn tell(&self, number: usize, answer: Answer) {
         let status = answer.status().to_owned();
         let why = answer.why();
-        let mut answers = self.answers.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut answers = locked(&self.answers);
         for &other in self.equal.get(&number).into_iter().flatten() {
             answers[other] = Some(answer.clone());
         }
@@ -349,13 +323,6 @@ impl<'a> Board<'a> {
     }
 
     fn answers(&self) -> Vec<Option<Answer>> {
-        self.answers.lock().unwrap_or_else(PoisonError::into_inner).clone()
-    }
-
-    fn counts(&self) -> Counts {
-        let answers = self.answers();
-        let count = |status| answers.iter().flatten().filter(|answer| answer.status() == status).count();
-        let [solved, refused] = ["solved", "refused"].map(count);
-        Counts { solved, refused, failed: answers.iter().flatten().count() - solved - refused }
+        locked(&self.answers).clone()
     }
 }

@@ -60,6 +60,12 @@ impl Curve {
         Self { stroke, ..self }
     }
 
+    /// The line, and its points as dots without a name.
+    pub fn dotted(self) -> Vec<Self> {
+        let dots = Self { name: None, ..self.clone() }.drawn(Stroke::Dots);
+        vec![self, dots]
+    }
+
     /// A dashed line with a name: a closed form.
     pub fn dashed(points: Vec<[f64; 2]>, name: &str, colour: usize) -> Self {
         Self::line(points, name, colour).drawn(Stroke::Dashed)
@@ -102,6 +108,11 @@ impl Chart {
             ranges: [None; 2],
             here: None,
         }
+    }
+
+    /// A chart over the increments of a history.
+    pub fn over_increments(what: &str, label: Label, curves: Vec<Curve>) -> Self {
+        Self::new(&format!("{what} over the increments"), [Label::plain("increment"), label], curves)
     }
 
     /// The area that its curves are drawn in.

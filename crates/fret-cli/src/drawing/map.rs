@@ -49,17 +49,12 @@ pub struct Map {
 }
 
 impl Map {
-    /// A map of the surface without a bar; `label` names lengths.
-    pub fn of_surface(
-        what: &str,
-        label: impl Fn(&str) -> Label,
-        [x, y]: [[f64; 2]; 2],
-        image: String,
-    ) -> Self {
+    /// A map of the surface without a bar, whose axes are so called; a line contact has none along y.
+    pub fn of_surface(what: &str, axes: [Label; 2], [x, y]: [[f64; 2]; 2], image: String) -> Self {
         Self {
             what: what.to_owned(),
             width: SURFACE,
-            axes: ["x", "y"].map(label),
+            axes,
             x,
             y,
             downward: false,

@@ -3,14 +3,20 @@
 //!
 //! From the ground: `scale` (axes), `raster` (images of fields), `frame` (the area between two axes), `chart` and `map`.
 
-pub mod chart;
-pub mod frame;
-pub mod map;
-pub mod raster;
-pub mod scale;
-pub mod section;
+mod chart;
+mod frame;
+mod map;
+mod raster;
+mod scale;
+mod section;
 
+pub use chart::{Chart, Curve, Stroke, joined};
+pub use frame::{Frame, room_for};
+pub use map::{Map, SURFACE};
 use maud::{Markup, html};
+pub use raster::{Raster, pixels_for};
+pub use scale::{Axis, Label, ends, superscript};
+pub use section::Section;
 
 /// The style of pictures: the palette by day, and what is drawn in which colour.
 pub const STYLE: &str = concat!(include_str!("palette.css"), include_str!("drawing.css"));

@@ -12,7 +12,12 @@ pub struct Label {
 impl Label {
     /// A name without unit.
     pub fn plain(name: &str) -> Self {
-        Self { name: name.to_owned(), unit: None }
+        Self::with(name, None)
+    }
+
+    /// A name with its unit, where it has one.
+    pub fn with(name: &str, unit: Option<String>) -> Self {
+        Self { name: name.to_owned(), unit }
     }
 }
 

@@ -57,10 +57,7 @@ impl Section<'_> {
             let i = (2 * column + 1) * self.x.len() / (2 * columns);
             self.values[self.row_at(depth)].get(i).copied().unwrap_or(f64::NAN)
         };
-        let label = |name: &str, kind: &str| Label {
-            name: name.to_owned(),
-            unit: self.units.map(|units| units.of(kind)),
-        };
+        let label = |name: &str, kind: &str| Label::with(name, self.units.map(|units| units.of(kind)));
         let map = Map {
             what: format!("{}, {}", self.quantity.0, self.subject),
             width,

@@ -16,14 +16,11 @@ use serde_json::{Value, json};
 
 use super::question::{Question, Values, Written};
 use super::stress::stress_below;
-use crate::drawing::chart::{Chart, Curve};
-use crate::drawing::map::{Map, SURFACE};
-use crate::drawing::scale::Label;
-use crate::drawing::section::Section;
+use crate::drawing::{Chart, Curve, Map, SURFACE, Section};
 use crate::failure::Failure;
-use crate::interrupt::Keeper;
-use crate::report::html::{number, percent};
-use crate::report::{Measured, Part, Window, legend_of_zones};
+use crate::figures::percent;
+use crate::manner::Listener;
+use crate::report::{Measured, Part, Window, legend_of_zones, number};
 use crate::sweep::{Path, direction, last_cycle};
 
 /// Room around the contact in a picture, over its width.
@@ -126,7 +123,8 @@ impl Solver {
         let started = Instant::now();
         let (history, plan) = self.pool.install(|| {
             let (_, plan) = self.question.shown(values)?;
-            let (history, outcome, _) = self.common.solve(0, Simulation::new(&plan), &mut Keeper);
+            let (history, outcome, _) =
+                self.common.solve(0, Simulation::new(&plan), &mut Listener::keeping());
             outcome?;
             Ok::<_, Failure>((history, plan))
         })?;
@@ -274,21 +272,16 @@ impl<'a> View<'a> {
     /// The part of the grid that maps show: the contact with some room around it.
     fn part(&self, pressure: &Array2<f64>) -> Part {
         let mut window = Window::new(self.history.grid.cells());
-        let touching = pressure.indexed_iter().filter(|(_, pressure)| **pressure > 0.0);
-        touching.for_each(|((i, j), _)| window.take([i, j]));
+        window.widen(pressure);
         window.part_with(|wide| (ROOM * wide as f64).ceil() as usize)
     }
 
     fn map(&self, what: &str, part: &Part, image: String, most: Option<f64>) -> Result<Markup, Failure> {
         let grid = &self.history.grid;
-        let length = |name: &str| match self.dimension() {
-            Dimension::Line if name == "y" => Label::plain(""),
-            _ => self.label(name, "length"),
-        };
         let edges = part.edges(|axis, cell| grid.centre(axis, cell), grid.spacing());
         let map = Map {
             bar: most.map(|most| (self.label("pressure", "pressure"), [0.0, most])),
-            ..Map::of_surface(what, length, edges, image)
+            ..Map::of_surface(what, self.labels_of_surface(), edges, image)
         };
         Ok(map.drawing()?.in_page())
     }

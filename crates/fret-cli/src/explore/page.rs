@@ -1,11 +1,11 @@
 //! The page: sliders on one side, pictures and numbers on the other. The script asks for solutions and puts them in.
 
 use maud::{PreEscaped, html};
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::question::Question;
-use crate::figures::unit_of;
-use crate::report::{PageParts, called, json_in_page, page_with};
+use super::sliders::Slider;
+use crate::report::{Measured, PageParts, called, json_in_page, page_with};
 
 const STYLE: &str = include_str!("explore.css");
 const SCRIPT: &str = include_str!("explore.js");
@@ -23,16 +23,13 @@ const FIGURES: [[&str; 2]; 5] = [
 
 /// The page of a case.
 pub fn page(question: &Question) -> String {
-    let unit = |kind: Option<&str>| unit_of(question.units.as_ref(), kind?, question.dimension);
-    let sliders: Vec<_> = question
-        .sliders
-        .iter()
-        .map(|slider| {
-            let mut entry = json!(slider);
-            entry["unit"] = json!(unit(slider.kind));
-            entry
-        })
-        .collect();
+    let unit = |kind: Option<&str>| question.unit(kind?);
+    let slider = |slider: &Slider| {
+        let mut entry = json!(slider);
+        entry["unit"] = json!(unit(slider.kind));
+        entry
+    };
+    let sliders: Vec<Value> = question.sliders.iter().map(slider).collect();
     let setting = json!({ "sliders": sliders, "name": question.name() });
     let content = html! {
         header {

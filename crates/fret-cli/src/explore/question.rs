@@ -1,7 +1,6 @@
 //! The case with the numbers of the sliders, on a coarse grid: what is solved while a slider is dragged, and what the button writes.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 
 use fret_core::model::Dimension;
 use fret_core::plan::Plan;
@@ -12,8 +11,9 @@ use toml::{Table, Value};
 use super::sliders::{Slider, sliders};
 use super::written::with_numbers;
 use crate::failure::Failure;
+use crate::report::Measured;
 use crate::sweep::key::put;
-use fret_results::{Beside, CaseFile};
+use fret_results::CaseFile;
 
 /// Cycles of a stage that are solved.
 const MOST_CYCLES: i64 = 2;
@@ -42,11 +42,8 @@ pub enum Written {
 
 /// A case to play with.
 pub struct Question {
-    path: PathBuf,
-    /// Of a case that came from no file: where what it names is found.
-    beside: Option<Beside>,
     /// The case that was opened, as it was written.
-    text: String,
+    opened: CaseFile,
     /// The same.
     own: Table,
     /// The same as it is solved here.
@@ -55,10 +52,8 @@ pub struct Question {
     pub sliders: Vec<Slider>,
     /// What is solved in another way than the case says, in sentences.
     pub notes: Vec<String>,
-    /// Units that the case declares.
-    pub units: Option<Units>,
-    /// Whether it is a line contact, with loads per length.
-    pub dimension: Dimension,
+    units: Option<Units>,
+    dimension: Dimension,
     /// Sides of the grid that the numbers of the case ask for [length], where grids follow the contact.
     size: Option<[f64; 2]>,
 }
@@ -75,9 +70,9 @@ impl Question {
         let mut coarse = own.clone();
         coarsen(&mut coarse, &plan, i64::from(cells), &mut notes);
         if plan.case.rolls() {
-            return Err(Failure::Call(
+            return Err(Failure::call(
                 format!("{}: a contact that rolls needs its many increments", file.name()),
-                "fret run, and fret report of its folder".to_owned(),
+                "fret run, and fret report of its folder",
             ));
         }
         shorten(&mut coarse, &plan, &mut notes);
@@ -105,18 +100,8 @@ impl Question {
             ));
         }
         let (units, dimension) = (plan.case.units.clone(), plan.grid.dimension());
-        let mut question = Self {
-            units,
-            dimension,
-            path: file.path.clone(),
-            beside: file.beside.clone(),
-            text: file.text.clone(),
-            own,
-            coarse,
-            sliders,
-            notes,
-            size: None,
-        };
+        let mut question =
+            Self { units, dimension, opened: file.clone(), own, coarse, sliders, notes, size: None };
         question.follow_the_contact(&plan);
         Ok(question)
     }
@@ -142,7 +127,7 @@ impl Question {
 
     /// Name of the case that was opened.
     pub fn name(&self) -> String {
-        self.path.file_stem().map_or_else(|| "case".to_owned(), |stem| stem.display().to_string())
+        self.opened.stem().display().to_string()
     }
 
     /// Title of the case.
@@ -161,16 +146,11 @@ impl Question {
         let plan = file.planned()?;
         let Some(size) = self.size else { return Ok((file, plan)) };
         let mut sized = table;
-        let sides: Vec<Value> = plan
-            .grid
-            .size()
-            .iter()
-            .zip(size)
-            .map(|(now, side)| {
-                let steps = ((now / side).ln() / STEP.ln() - 1e-9).ceil();
-                Value::Float(STEP.powf(steps) * side)
-            })
-            .collect();
+        let side = |(now, side): (f64, f64)| {
+            let steps = ((now / side).ln() / STEP.ln() - 1e-9).ceil();
+            Value::Float(STEP.powf(steps) * side)
+        };
+        let sides: Vec<Value> = plan.grid.size().into_iter().zip(size).map(side).collect();
         let sides = match plan.grid.dimension() {
             Dimension::Plane => Value::Array(sides),
             Dimension::Line => sides[0].clone(),
@@ -194,7 +174,7 @@ impl Question {
             Written::Own => {
                 let file = self.file(&self.with(&self.own, values)?);
                 file.planned()?;
-                with_numbers(&self.text, values).unwrap_or(file.text)
+                with_numbers(&self.opened.text, values).unwrap_or(file.text)
             }
         };
         let about = match which {
@@ -209,7 +189,7 @@ impl Question {
         let mut table = table.clone();
         for (key, value) in values {
             if !self.sliders.iter().any(|slider| slider.key == *key) || !value.is_finite() {
-                return Err(Failure::Call(format!("{key}: is no slider of this case"), String::new()));
+                return Err(Failure::call(format!("{key}: is no slider of this case"), ""));
             }
             put(&mut table, key, &Value::Float(*value)).map_err(Failure::Defect)?;
         }
@@ -217,8 +197,17 @@ impl Question {
     }
 
     fn file(&self, table: &Table) -> CaseFile {
-        let text = toml::to_string(table).unwrap_or_default();
-        CaseFile { path: self.path.clone(), text, beside: self.beside.clone() }
+        CaseFile { text: toml::to_string(table).unwrap_or_default(), ..self.opened.clone() }
+    }
+}
+
+impl Measured for Question {
+    fn units(&self) -> Option<&Units> {
+        self.units.as_ref()
+    }
+
+    fn dimension(&self) -> Dimension {
+        self.dimension
     }
 }
 

@@ -14,6 +14,7 @@ use super::page;
 use crate::defect;
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::threads::locked;
 
 /// Bytes of a question, at the most.
 const LONGEST: u64 = 64 * 1024;
@@ -78,20 +79,20 @@ impl<T> Default for Inbox<T> {
 impl<T> Inbox<T> {
     /// Puts a question in; gives back the one that has to give way. A case that is to be written gives way to another one alone.
     fn put(&self, question: T, is_case: bool) -> Option<T> {
-        let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut waiting = locked(&self.waiting);
         let older = if is_case { &mut waiting.case } else { &mut waiting.newest }.replace(question);
         self.changed.notify_one();
         older
     }
 
     fn end(&self) {
-        self.waiting.lock().unwrap_or_else(PoisonError::into_inner).has_ended = true;
+        locked(&self.waiting).has_ended = true;
         self.changed.notify_one();
     }
 
     /// Waits for the newest question; none at the end.
     fn take(&self) -> Option<T> {
-        let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut waiting = locked(&self.waiting);
         loop {
             if waiting.has_ended {
                 return None;
@@ -111,9 +112,7 @@ impl Server {
     /// # Errors
     /// When the port cannot be had, or the system gives no random number.
     pub fn open(port: u16) -> Result<Self, Failure> {
-        let refuse = |why: String| {
-            Failure::Call(format!("port {port}: {why}"), "another one with --port N".to_owned())
-        };
+        let refuse = |why: String| Failure::call(format!("port {port}: {why}"), "another one with --port N");
         let address = SocketAddr::from((Ipv4Addr::LOCALHOST, port));
         let http = tiny_http::Server::http(address).map_err(|error| refuse(error.to_string()))?;
         let port = http.server_addr().to_ip().map_or(port, |address| address.port());
@@ -152,7 +151,7 @@ impl Server {
                     Ok(None) => {}
                     Err(error) => {
                         let what = format!("the page can be asked no more: {error}");
-                        ending = Err(Failure::Call(what, "start fret explore again".to_owned()));
+                        ending = Err(Failure::call(what, "start fret explore again"));
                     }
                 }
             }

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use super::{folder, written};
 use crate::failure::{Failure, Unwritten};
 use fret_core::model::Dimension;
-use fret_results::{Field, Results};
+use fret_results::Results;
+use ndarray::Array2;
 
 /// Writes the results as CSV into a folder; the files.
 pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
@@ -19,7 +20,7 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
     let fields = &results.fields;
     for (position, &step) in fields.steps.iter().enumerate() {
         let file = path.join(format!("fields_{step:06}.csv"));
-        let columns: Vec<Field> =
+        let columns: Vec<Array2<f64>> =
             fields.names.iter().map(|name| fields.field(name, position)).collect::<Result<_, _>>()?;
         written(&file, |writer| {
             let dimension = fields.grid().dimension();
@@ -32,7 +33,7 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
                         Dimension::Line => write!(row, "{x:?}"),
                     };
                     for (name, column) in fields.names.iter().zip(&columns) {
-                        let value = column.at(i, j);
+                        let value = column[[i, j]];
                         let _ =
                             if *name == "zone" { write!(row, ",{value}") } else { write!(row, ",{value:?}") };
                     }

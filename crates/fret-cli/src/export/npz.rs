@@ -3,7 +3,9 @@
 //!
 //! Formats: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>, in a zip archive without compression.
 
-use std::io::{self, Seek, SeekFrom, Write};
+use std::fs::File;
+use std::io::{self, BufWriter, Seek, SeekFrom, Write};
+use std::iter;
 use std::path::{Path, PathBuf};
 
 use fret_core::history::{STEP_COLUMNS, Value};
@@ -41,8 +43,7 @@ fn units_in_json(results: &Results, units: &Units) -> String {
 pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
     let fields = &results.fields;
     let [nx, ny] = fields.cells();
-    written(path, |writer| {
-        let mut archive = Archive { zip: ZipWriter::new(UntilFailed::new(writer)), path };
+    archived(path, |archive| {
         let steps: Vec<u8> = fields.steps.iter().flat_map(|&step| (step as i64).to_le_bytes()).collect();
         archive.array("x", "<f8", &[nx], &bytes(&fields.x))?;
         let dimension = fields.grid().dimension();
@@ -55,13 +56,9 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
             let shape = &[fields.steps.len(), nx, ny][..=dimension.axes().len()];
             archive.begin(name, kind, shape, width * shape.iter().product::<usize>())?;
             for position in 0..fields.steps.len() {
-                let values = fields.field(name, position)?.values;
-                let content = if width == 1 {
-                    values.iter().map(|&value| value as u8).collect()
-                } else {
-                    bytes(&values)
-                };
-                archive.append(&content)?;
+                let values = fields.field(name, position)?;
+                let zones = || values.iter().map(|&value| value as u8).collect();
+                archive.append(&if width == 1 { zones() } else { bytes(&values) })?;
             }
         }
         for (name, values) in results.table.columns() {
@@ -72,32 +69,31 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
                 archive.array(name, "<f8", &[values.len()], &bytes(values))?;
             }
         }
-        let regimes = results.table.regimes();
-        let letters = regimes.iter().map(String::len).max().unwrap_or(0).max(1);
-        let mut words = Vec::with_capacity(4 * letters * regimes.len());
-        for word in regimes {
-            let padded = word.chars().chain(std::iter::repeat('\0')).take(letters);
-            words.extend(padded.flat_map(|letter| u32::from(letter).to_le_bytes()));
-        }
         if let Some(units) = results.units() {
-            let words = units_in_json(results, units);
-            let letters: Vec<u8> = words.chars().flat_map(|letter| u32::from(letter).to_le_bytes()).collect();
-            archive.array("units", &format!("<U{}", words.chars().count()), &[], &letters)?;
+            archive.words("units", &[], &[units_in_json(results, units)])?;
         }
-        archive.array("regime", &format!("<U{letters}"), &[regimes.len()], &words)?;
-        archive.zip.finish().map_err(|error| unwritten(path, error))?;
-        Ok(())
+        let regimes = results.table.regimes();
+        archive.words("regime", &[regimes.len()], regimes)
     })?;
     Ok(vec![path.to_owned()])
 }
 
 /// Writes arrays of numbers, each with its name and shape, as a `.npz` file.
-pub fn arrays(path: &Path, arrays: &[(&str, &[usize], &[f64])]) -> Result<(), Failure> {
+pub fn arrays(path: &Path, arrays: &[(&str, &[usize], Vec<f64>)]) -> Result<(), Failure> {
+    archived(path, |archive| {
+        let mut arrays = arrays.iter();
+        arrays.try_for_each(|(name, shape, values)| archive.array(name, "<f8", shape, &bytes(values)))
+    })
+}
+
+/// Writes an archive in one go.
+fn archived(
+    path: &Path,
+    fill: impl FnOnce(&mut Archive<'_, UntilFailed<&mut BufWriter<File>>>) -> Result<(), Failure>,
+) -> Result<(), Failure> {
     written(path, |writer| {
         let mut archive = Archive { zip: ZipWriter::new(UntilFailed::new(writer)), path };
-        for (name, shape, values) in arrays {
-            archive.array(name, "<f8", shape, &bytes(values))?;
-        }
+        fill(&mut archive)?;
         archive.zip.finish().map_err(|error| unwritten(path, error))?;
         Ok(())
     })
@@ -162,6 +158,15 @@ impl<W: Write + Seek> Archive<'_, W> {
         self.append(content)
     }
 
+    /// Words, all of them as wide as the longest one.
+    fn words(&mut self, name: &str, shape: &[usize], words: &[String]) -> Result<(), Failure> {
+        let letters = words.iter().map(|word| word.chars().count()).max().unwrap_or(0).max(1);
+        let padded = |word: &String| word.chars().chain(iter::repeat('\0')).take(letters).collect::<Vec<_>>();
+        let all = words.iter().flat_map(padded);
+        let content: Vec<u8> = all.flat_map(|letter| u32::from(letter).to_le_bytes()).collect();
+        self.array(name, &format!("<U{letters}"), shape, &content)
+    }
+
     fn begin(&mut self, name: &str, kind: &str, shape: &[usize], bytes: usize) -> Result<(), Failure> {
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Stored)
@@ -195,6 +200,6 @@ fn header(kind: &str, shape: &[usize]) -> Vec<u8> {
     head
 }
 
-fn bytes(values: &[f64]) -> Vec<u8> {
-    values.iter().flat_map(|value| value.to_le_bytes()).collect()
+fn bytes<'a>(values: impl IntoIterator<Item = &'a f64>) -> Vec<u8> {
+    values.into_iter().flat_map(|value| value.to_le_bytes()).collect()
 }

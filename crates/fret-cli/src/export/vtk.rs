@@ -10,7 +10,7 @@ use fret_core::units::Units;
 
 use super::{folder, written};
 use crate::failure::{Failure, Unwritten};
-use fret_results::{Field, Fields, Results, kind_of_field};
+use fret_results::{Fields, Results, kind_of_field, write_whole};
 
 /// Writes the results as VTK files into a folder; the files, the list of them first.
 pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
@@ -30,9 +30,7 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  \
          <Collection>\n{entries}  </Collection>\n</VTKFile>\n"
     );
-    written(&list, |writer| {
-        writer.write_all(text.as_bytes()).map_err(|error| Unwritten::at(&list)(error).into())
-    })?;
+    write_whole(&list, text.as_bytes())?;
     Ok(files)
 }
 
@@ -98,34 +96,21 @@ fn arrays(fields: &Fields, position: usize) -> Result<Vec<Array>, Failure> {
     let mut arrays = Vec::new();
     for &name in &fields.names {
         let field = fields.field(name, position)?;
-        match name {
+        // in the order of VTK x is fastest
+        let numbers = field.t();
+        let (name, components, bytes) = match name {
             "shear_x" | "slip_x" => {
-                let (vector, other) =
-                    if name == "shear_x" { ("shear", "shear_y") } else { ("slip", "slip_y") };
-                let other = fields.field(other, position)?;
-                let bytes = x_fastest(&field)
-                    .zip(x_fastest(&other))
-                    .flat_map(|(x, y)| [x, y, 0.0])
-                    .flat_map(f64::to_le_bytes)
-                    .collect();
-                arrays.push(Array { name: vector, kind: "Float64", components: 3, bytes });
+                let vector = name.trim_end_matches("_x");
+                let other = fields.field(&format!("{vector}_y"), position)?;
+                let vectors = numbers.iter().zip(other.t()).flat_map(|(x, y)| [*x, *y, 0.0]);
+                (vector, 3, vectors.flat_map(f64::to_le_bytes).collect())
             }
-            "shear_y" | "slip_y" => {}
-            "zone" => {
-                let bytes = x_fastest(&field).map(|zone| zone as u8).collect();
-                arrays.push(Array { name, kind: "UInt8", components: 1, bytes });
-            }
-            _ => {
-                let bytes = x_fastest(&field).flat_map(f64::to_le_bytes).collect();
-                arrays.push(Array { name, kind: "Float64", components: 1, bytes });
-            }
-        }
+            "shear_y" | "slip_y" => continue,
+            "zone" => (name, 1, numbers.iter().map(|zone| *zone as u8).collect()),
+            _ => (name, 1, numbers.iter().copied().flat_map(f64::to_le_bytes).collect()),
+        };
+        let kind = if name == "zone" { "UInt8" } else { "Float64" };
+        arrays.push(Array { name, kind, components, bytes });
     }
     Ok(arrays)
-}
-
-/// The cells in the order of VTK.
-fn x_fastest(field: &Field) -> impl Iterator<Item = f64> + '_ {
-    let [nx, ny] = field.cells;
-    (0..ny).flat_map(move |j| (0..nx).map(move |i| field.at(i, j)))
 }

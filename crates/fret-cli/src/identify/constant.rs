@@ -1,18 +1,24 @@
-//! A fitted constant in records.
+//! A fitted constant, as it is told.
 
 use fret_core::identify::Constant;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-/// A fitted constant.
-pub fn of_constant(constant: &Constant) -> Map<String, Value> {
+use crate::report::number;
+
+/// For programs.
+pub fn of_constant(constant: &Constant) -> Value {
+    let Constant { name, unit, value, interval: [low, high], told } = constant;
+    json!({ "name": name, "unit": unit, "value": value, "low": low, "high": high, "told": told })
+}
+
+/// A value of it on a page.
+pub fn cell(constant: &Constant, value: f64) -> String {
+    if constant.told { number(value) } else { "not told".to_owned() }
+}
+
+/// Its name, value and interval on a page.
+pub fn cells(constant: &Constant) -> [String; 4] {
     let [low, high] = constant.interval;
-    let entries = [
-        ("name", json!(constant.name)),
-        ("unit", json!(constant.unit)),
-        ("value", json!(constant.value)),
-        ("low", json!(low)),
-        ("high", json!(high)),
-        ("told", json!(constant.told)),
-    ];
-    entries.map(|(key, value)| (key.to_owned(), value)).into_iter().collect()
+    let [value, low, high] = [constant.value, low, high].map(|value| cell(constant, value));
+    [constant.name.clone(), value, low, high]
 }

@@ -2,17 +2,15 @@
 
 use fret_core::identify::{self, Constant, Indentation, IndentationRequest, Numbers};
 use maud::{Markup, html};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use super::constant::of_constant;
+use super::constant::{cell, cells, of_constant};
 use super::record::rows_in_words;
 use super::{Identified, case_with, dotted, value_of};
-use crate::drawing::chart::{Chart, Curve, Stroke};
-use crate::drawing::scale::Label;
+use crate::drawing::{Chart, Curve, Label, Stroke};
 use crate::failure::Failure;
 use crate::figures::{counted, figure};
-use crate::report::html::{number, table};
-use crate::report::whole_page;
+use crate::report::{number, table, whole_page};
 use crate::table::Columns;
 use fret_results::CaseFile;
 
@@ -38,17 +36,14 @@ pub fn indentation(
     let keys = &asked.keys;
     for (k, key) in keys.iter().enumerate() {
         if keys[..k].iter().any(|other| dotted(other) == dotted(key)) {
-            return Err(Failure::Call(format!("--fit {key}: named twice"), "name each key once".to_owned()));
+            return Err(Failure::call(format!("--fit {key}: named twice"), "name each key once"));
         }
     }
-    let numbers: Vec<(String, f64)> = keys
-        .iter()
-        .map(|key| Ok((key.clone(), value_of(case_file, key)?)))
-        .collect::<Result<_, Failure>>()?;
+    let named = |key: &String| Ok((key.clone(), value_of(case_file, key)?));
+    let numbers = keys.iter().map(named).collect::<Result<_, Failure>>()?;
     let case_of = |values: &[f64]| {
-        let numbers: Vec<(&str, f64)> =
-            keys.iter().zip(values).map(|(key, value)| (key.as_str(), *value)).collect();
-        case_with(case_file, &numbers)
+        let numbers = keys.iter().map(String::as_str).zip(values.iter().copied());
+        case_with(case_file, &numbers.collect::<Vec<_>>())
     };
     let numbers = Numbers { keys: numbers, case_with: &case_of };
     let found = &identify::indentation(log, &case, &numbers, &asked.request)?;
@@ -64,17 +59,12 @@ pub fn indentation(
 fn record(found: &Indentation) -> Value {
     let along = |k: usize| found.points.iter().map(|point| point[k]).collect::<Vec<f64>>();
     let computed = |k: usize| found.computed.iter().map(|point| point[k]).collect::<Vec<f64>>();
-    let parameters: Vec<Map<String, Value>> = found
-        .constants
-        .iter()
-        .enumerate()
-        .map(|(k, constant)| {
-            let mut entry = of_constant(constant);
-            let change = found.grid.as_ref().map(|grid| grid[k]);
-            entry.insert("change_on_half_the_cells".to_owned(), json!(change));
-            entry
-        })
-        .collect();
+    let parameter = |(k, constant): (usize, &Constant)| {
+        let mut entry = of_constant(constant);
+        entry["change_on_half_the_cells"] = json!(found.grid.as_ref().map(|grid| grid[k]));
+        entry
+    };
+    let parameters: Vec<Value> = found.constants.iter().enumerate().map(parameter).collect();
     json!({
         "log": found.log,
         "units": {"length": found.units.length, "force": found.units.force},
@@ -157,20 +147,17 @@ fn page(found: &Indentation) -> String {
 
 fn constants(found: &Indentation) -> Markup {
     let row = |(k, constant): (usize, &Constant)| {
-        let [low, high] = constant.interval;
-        let cell = |value: f64| if constant.told { number(value) } else { "not told".to_owned() };
-        let coarse =
-            found.grid.as_ref().map_or_else(|| "–".to_owned(), |grid| cell(constant.value + grid[k]));
-        let name = constant.name.clone();
-        vec![name, cell(constant.value), cell(low), cell(high), coarse, found.units.of(constant.unit)]
+        let coarse = found.grid.as_ref().map(|grid| cell(constant, constant.value + grid[k]));
+        let more = [coarse.unwrap_or_else(|| "–".to_owned()), found.units.of(constant.unit)];
+        cells(constant).into_iter().chain(more).collect()
     };
     let rows: Vec<Vec<String>> = found.constants.iter().enumerate().map(row).collect();
     table(&["constant", "value", "95 % from", "to", "on half of the cells", "unit"], &rows)
 }
 
 fn axes(found: &Indentation, up: &str) -> [Label; 2] {
-    let label = |name: &str, unit: &str| Label { name: name.to_owned(), unit: Some(unit.to_owned()) };
-    [label("depth", &found.units.length), label(up, &found.units.force)]
+    let units = &found.units;
+    [("depth", &units.length), (up, &units.force)].map(|(name, unit)| Label::with(name, Some(unit.clone())))
 }
 
 fn dots(points: Vec<[f64; 2]>) -> Curve {

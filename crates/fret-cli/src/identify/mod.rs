@@ -21,7 +21,7 @@ use toml::Table;
 
 use crate::failure::Failure;
 use crate::sweep::key;
-use fret_results::{Beside, CaseFile};
+use fret_results::CaseFile;
 
 /// What is asked of a log, and the key of the case that is fitted too, such as `lower.substrate.young`.
 #[derive(Debug, Clone, Default)]
@@ -106,11 +106,10 @@ fn value_of(case_file: &CaseFile, key: &str) -> Result<f64, Failure> {
 }
 
 fn unknown(key: &str) -> Failure {
-    Failure::Call(
+    Failure::call(
         format!("--fit {key}: the case has no positive number there"),
         "a key such as lower.substrate.young or lower.coatings.0.thickness; a number that is a default, or that another key stands for \
-         (profile.pyramid.indenter for half_angle), is written into the case first"
-            .to_owned(),
+         (profile.pyramid.indenter for half_angle), is written into the case first",
     )
 }
 
@@ -127,13 +126,7 @@ fn case_with(case_file: &CaseFile, numbers: &[(&str, f64)]) -> Result<Case, Case
         key::put(&mut table, &dotted(name), &toml::Value::Float(*value)).map_err(refuse)?;
     }
     let text = toml::to_string(&table).map_err(|error| refuse(error.to_string()))?;
-    let beside = case_file.beside.as_ref();
-    let folder = beside.map_or_else(
-        || case_file.path.parent().unwrap_or_else(|| Path::new("")).to_owned(),
-        |beside| beside.folder.clone(),
-    );
-    let contents = beside.map(|beside| beside.contents.clone()).unwrap_or_default();
-    CaseFile::of_text(&case_file.name(), text, Beside { folder, contents }).case(None)
+    CaseFile { text, ..case_file.clone() }.case(None)
 }
 
 /// The name of a log in messages and results.

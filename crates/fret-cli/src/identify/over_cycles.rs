@@ -1,11 +1,11 @@
 //! A test over its cycles: curves of what is read from them, and where the sliding condition changes.
 
+use fret_core::history::CycleRegime;
 use fret_core::identify::{Cycle, Identification, Quantities};
 use maud::{Markup, html};
 use serde_json::{Value, json};
 
-use crate::drawing::chart::{Chart, Curve, Stroke};
-use crate::drawing::scale::Label;
+use crate::drawing::{Chart, Curve, Label, Stroke};
 
 /// Single cycles that a change of the sliding condition must explain: fewer, one after the other, are noise at the border.
 const CHANGE: usize = 5;
@@ -26,7 +26,7 @@ pub struct Span {
 impl Span {
     /// Its sliding condition, as files name it.
     fn word(self) -> &'static str {
-        if self.slides { "gross_slip" } else { "partial_slip" }
+        if self.slides { CycleRegime::GrossSlip } else { CycleRegime::PartialSlip }.name()
     }
 }
 
@@ -64,15 +64,12 @@ fn smoothed(slides: &[bool]) -> Vec<bool> {
         came_from.push(from);
     }
     let mut state = usize::from(cost[1] < cost[0]);
-    let mut sequence: Vec<bool> = came_from
-        .iter()
-        .rev()
-        .map(|from| {
-            let now = state;
-            state = from[now];
-            now == 1
-        })
-        .collect();
+    let step_back = |from: &[usize; 2]| {
+        let now = state;
+        state = from[now];
+        now == 1
+    };
+    let mut sequence: Vec<bool> = came_from.iter().rev().map(step_back).collect();
     sequence.reverse();
     sequence
 }
@@ -94,10 +91,15 @@ pub fn in_words(found: &Identification) -> Option<String> {
 
 /// The same for programs.
 pub fn record(found: &Identification) -> Vec<Value> {
-    spans(found)
-        .into_iter()
-        .map(|span| json!({"from": span.from, "to": span.to, "sliding_condition": span.word()}))
-        .collect()
+    let of = |span: Span| json!({"from": span.from, "to": span.to, "sliding_condition": span.word()});
+    spans(found).into_iter().map(of).collect()
+}
+
+/// A chart over the cycles; none where nothing is known.
+pub fn over_cycles(label: Label, curves: Vec<Curve>) -> Option<Chart> {
+    let is_drawn = curves.iter().any(|curve| curve.points.iter().any(|point| point[1].is_finite()));
+    let what = format!("{} over the cycles", label.name);
+    is_drawn.then(|| Chart::new(&what, [Label::plain("cycle"), label], curves))
 }
 
 /// Curves over the cycles, as a part of the page.
@@ -113,9 +115,7 @@ pub fn figures(found: &Identification) -> Markup {
     };
     let chart = |what: &str, unit: &str, curves: Vec<Curve>| {
         let unit = (!unit.is_empty()).then(|| found.unit_of(unit));
-        let axes = [Label { name: "cycle".to_owned(), unit: None }, Label { name: what.to_owned(), unit }];
-        let is_drawn = curves.iter().any(|curve| curve.points.iter().any(|point| point[1].is_finite()));
-        is_drawn.then(|| Chart::new(&format!("{what} over the cycles"), axes, curves))
+        over_cycles(Label::with(what, unit), curves)
     };
     let charts = [
         chart(

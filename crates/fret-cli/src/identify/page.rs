@@ -1,15 +1,13 @@
 //! The page of an identification: the measured loop beside the computed one, the loops of all cycles, what was found.
 
-use fret_core::identify::{Identification, MeasuredCycle};
+use fret_core::identify::{Constant, Cycle, Identification, MeasuredCycle};
 use maud::{Markup, html};
 
-use super::over_cycles;
-use super::repeated;
+use super::constant::cells;
 use super::table::{COLUMNS, Column};
-use crate::drawing::chart::{Chart, Curve, Stroke};
-use crate::drawing::scale::{Label, ends};
-use crate::report::html::{number, table};
-use crate::report::whole_page;
+use super::{over_cycles, repeated};
+use crate::drawing::{Chart, Curve, Label, Stroke, ends};
+use crate::report::{number, table, whole_page};
 
 /// Loops that the stack shows, at the most.
 const MOST_LOOPS: usize = 40;
@@ -20,9 +18,8 @@ const NOT_ON_THE_PAGE: [&str; 3] = ["points", "contact_sliding_ratio", "slope_af
 /// The page.
 pub fn page(found: &Identification) -> String {
     let title = format!("Fretting loops of {}", found.log);
-    let label = |name: &str, unit: &str| Label { name: name.to_owned(), unit: Some(unit.to_owned()) };
-    let axes =
-        [label("displacement", &found.units.length), label("tangential force", &found.unit_of("force"))];
+    let units = [("displacement", found.units.length.clone()), ("tangential force", found.unit_of("force"))];
+    let axes = units.map(|(name, unit)| Label::with(name, Some(unit)));
     let content = html! {
         h1 { (title) }
         (constants(found))
@@ -39,21 +36,9 @@ pub fn page(found: &Identification) -> String {
 }
 
 fn constants(found: &Identification) -> Markup {
-    let rows: Vec<Vec<String>> = found
-        .constants
-        .iter()
-        .map(|constant| {
-            let [low, high] = constant.interval;
-            let cell = |value: f64| if constant.told { number(value) } else { "not told".to_owned() };
-            vec![
-                constant.name.clone(),
-                cell(constant.value),
-                cell(low),
-                cell(high),
-                found.units.of(constant.unit),
-            ]
-        })
-        .collect();
+    let row =
+        |constant: &Constant| cells(constant).into_iter().chain([found.units.of(constant.unit)]).collect();
+    let rows: Vec<Vec<String>> = found.constants.iter().map(row).collect();
     table(&["constant", "value", "95 % from", "to", "unit"], &rows)
 }
 
@@ -94,28 +79,20 @@ fn stack(found: &Identification, axes: [Label; 2]) -> Chart {
 }
 
 fn rows(found: &Identification) -> Markup {
-    let columns: Vec<&Column> =
-        COLUMNS.iter().filter(|column| !NOT_ON_THE_PAGE.contains(&column.name)).collect();
-    let head: Vec<String> = columns
-        .iter()
-        .map(|column| {
-            let name = column.name.replace('_', " ");
-            if column.unit.is_empty() { name } else { format!("{name} [{}]", found.unit_of(column.unit)) }
-        })
-        .collect();
+    let on_the_page = |column: &&Column| !NOT_ON_THE_PAGE.contains(&column.name);
+    let columns: Vec<&Column> = COLUMNS.iter().filter(on_the_page).collect();
+    let name = |column: &&Column| {
+        let name = column.name.replace('_', " ");
+        if column.unit.is_empty() { name } else { format!("{name} [{}]", found.unit_of(column.unit)) }
+    };
+    let head: Vec<String> = columns.iter().map(name).collect();
+    let cell = |cycle: &Cycle, column: &Column| match (column.of)(cycle) {
+        None => "–".to_owned(),
+        Some(count) if column.counts() => count.to_string(),
+        Some(value) => number(value),
+    };
+    let row = |cycle: &Cycle| columns.iter().map(|column| cell(cycle, column)).collect();
     let every = found.cycles.len().div_ceil(MOST_LOOPS).max(1);
-    let rows: Vec<Vec<String>> = found
-        .cycles
-        .iter()
-        .step_by(every)
-        .map(|cycle| {
-            let cell = |column: &&Column| match (column.of)(cycle) {
-                None => "–".to_owned(),
-                Some(count) if column.counts() => count.to_string(),
-                Some(value) => number(value),
-            };
-            columns.iter().map(cell).collect()
-        })
-        .collect();
-    table(&head.iter().map(String::as_str).collect::<Vec<_>>(), &rows)
+    let rows: Vec<Vec<String>> = found.cycles.iter().step_by(every).map(row).collect();
+    table(&head, &rows)
 }

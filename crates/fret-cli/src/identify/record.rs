@@ -4,9 +4,8 @@ use fret_core::identify::{Cycle, Identification};
 use serde_json::{Map, Value, json};
 
 use super::constant::of_constant;
-use super::over_cycles;
-use super::repeated;
 use super::table::COLUMNS;
+use super::{over_cycles, repeated};
 
 /// Rows without a number that are named, at the most.
 const ROWS_NAMED: usize = 3;
@@ -23,13 +22,7 @@ pub fn record(found: &Identification) -> Value {
         "normal_force": found.normal_force,
         "parameters": found.constants.iter().map(of_constant).collect::<Vec<_>>(),
         "noise": found.noise,
-        "removed": {
-            "displacement_offset": found.removed.displacement_offset,
-            "displacement_drift": found.removed.displacement_drift,
-            "displacement_bend": found.removed.displacement_bend,
-            "force_offset": found.removed.force_offset,
-            "drift_per_cycle": found.removed.drift_per_cycle,
-        },
+        "removed": found.removed,
         "turned": {"force": found.turned.turned, "order_of_rows": found.turned.backwards},
         "skipped": skipped(found),
         "sliding_condition": found.regime,

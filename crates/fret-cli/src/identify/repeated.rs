@@ -6,8 +6,8 @@ use maud::{Markup, html};
 use serde_json::{Value, json};
 
 use super::constant::of_constant;
-use crate::drawing::chart::{Chart, Curve, Stroke};
-use crate::drawing::scale::Label;
+use super::over_cycles::over_cycles;
+use crate::drawing::{Curve, Label, Stroke};
 use crate::figures::{counted, figure};
 
 /// For programs.
@@ -87,19 +87,12 @@ pub fn figures(found: &Identification) -> Markup {
             Curve::line(points, name, colour)
         };
         let unit = (!constant.unit.is_empty()).then(|| found.units.of(constant.unit));
-        let axes =
-            [Label { name: "cycle".to_owned(), unit: None }, Label { name: constant.name.clone(), unit }];
         let curves = vec![
             curve(|constant| constant.interval[0], "95 % interval", 2).drawn(Stroke::Dashed),
-            curve(|constant| constant.interval[1], "", 2).drawn(Stroke::Dashed),
+            Curve { name: None, ..curve(|constant| constant.interval[1], "", 2) }.drawn(Stroke::Dashed),
             curve(|constant| constant.value, "fitted", 0),
         ];
-        let curves: Vec<Curve> = curves
-            .into_iter()
-            .map(|curve| Curve { name: curve.name.clone().filter(|name| !name.is_empty()), ..curve })
-            .collect();
-        let is_drawn = curves.iter().any(|curve| curve.points.iter().any(|point| point[1].is_finite()));
-        is_drawn.then(|| Chart::new(&format!("{} over the cycles", constant.name), axes, curves))
+        over_cycles(Label::with(&constant.name, unit), curves)
     };
     html! {
         h2 { "The fit repeated over the cycles" }

@@ -2,12 +2,12 @@
 
 use std::borrow::Borrow;
 
-use maud::{Markup, html};
+use maud::{Markup, Render, html};
 
 use crate::figures::{figure, typed};
 use crate::table::Columns;
 
-use crate::drawing::scale::superscript;
+use crate::drawing::superscript;
 
 /// A number as it is printed.
 pub fn number(value: f64) -> String {
@@ -35,11 +35,6 @@ fn printed(shown: &str) -> String {
     }
 }
 
-/// A share in percent.
-pub fn percent(share: f64) -> String {
-    if share.is_finite() { format!("{:.1} %", 100.0 * share) } else { "–".to_owned() }
-}
-
 /// A deviation in percent, with its sign and enough digits to be seen.
 pub fn deviation(computed: f64, exact: f64) -> String {
     let share = 100.0 * (computed / exact - 1.0);
@@ -56,18 +51,18 @@ pub fn chapter(heading: &str, body: &Markup) -> Markup {
 }
 
 /// A table of names and values.
-pub fn pairs(rows: &[(String, Markup)]) -> Markup {
+pub fn pairs(rows: impl IntoIterator<Item = (impl Render, impl Render)>) -> Markup {
     html! {
         div class="scroll" { table class="pairs" { @for (name, value) in rows { tr { th scope="row" { (name) } td { (value) } } } } }
     }
 }
 
 /// A table with a head.
-pub fn table(head: &[&str], rows: &[Vec<String>]) -> Markup {
+pub fn table(head: &[impl AsRef<str>], rows: &[Vec<String>]) -> Markup {
     html! {
         div class="scroll" {
             table class="grid" {
-                thead { tr { @for name in head { th { (name) } } } }
+                thead { tr { @for name in head { th { (name.as_ref()) } } } }
                 tbody { @for row in rows { tr { @for cell in row { td { (cell) } } } } }
             }
         }

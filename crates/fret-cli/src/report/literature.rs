@@ -4,8 +4,7 @@ use fret_core::model::{Body, Control, Dimension};
 use fret_core::study::{PartialSlip, Pressed};
 use maud::{Markup, html};
 
-use super::Measured;
-use super::overview::Overview;
+use super::{Measured, Overview};
 use crate::methods::paragraph;
 
 const LAYERS: &str = "T. C. O'Sullivan, R. B. King: Sliding contact stress field due to a spherical indenter on a layered \

@@ -3,8 +3,8 @@
 use fret_core::model::Dimension;
 use fret_core::units::Units;
 
-use super::html::{given, number};
-use crate::drawing::scale::Label;
+use super::{given, number};
+use crate::drawing::Label;
 
 /// What has units.
 pub trait Measured {
@@ -16,13 +16,22 @@ pub trait Measured {
 
     /// The unit of a kind of quantity such as `force x length`, where the case declares units and the quantity has one.
     fn unit(&self, kind: &str) -> Option<String> {
-        let units = self.units().filter(|_| !matches!(kind, "" | "-"))?;
-        Some(units.of(self.dimension().kind(kind)).replace("^2", "²").replace("^3", "³"))
+        let unit = Units::unit(self.units(), kind, self.dimension())?;
+        Some(unit.replace("^2", "²").replace("^3", "³"))
     }
 
     /// The name of an axis with its unit.
     fn label(&self, name: &str, kind: &str) -> Label {
-        Label { name: name.to_owned(), unit: self.unit(kind) }
+        Label::with(name, self.unit(kind))
+    }
+
+    /// Names of the axes of the surface; a line contact has none along y.
+    fn labels_of_surface(&self) -> [Label; 2] {
+        let y = match self.dimension() {
+            Dimension::Plane => self.label("y", "length"),
+            Dimension::Line => Label::plain(""),
+        };
+        [self.label("x", "length"), y]
     }
 
     /// A printed number with its unit.

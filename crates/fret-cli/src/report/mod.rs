@@ -5,7 +5,7 @@
 //! the grid is shown), `chapters` (what the page tells), and the page itself here; `sweep` and `study` are pages of their own.
 
 mod chapters;
-pub mod html;
+mod html;
 mod literature;
 mod measured;
 mod overview;
@@ -21,10 +21,12 @@ use crate::drawing;
 use crate::failure::Failure;
 pub use chapters::{json_in_page, legend_of_zones};
 use fret_results::Results;
+pub use html::{chapter, deviation, given, grid, number, pairs, short, side_by_side, table};
 pub use measured::Measured;
-use overview::Overview;
+pub use overview::Overview;
+pub use rolled::Rolled;
 pub use sweep::called;
-pub use window::{Part, Window};
+pub use window::{Part, Section, Window};
 pub use written::read_answer;
 
 /// The style of the page.

@@ -1,15 +1,13 @@
 //! A run seen as a whole: its units, which way it was loaded, which increments are worth showing, what theory has to say about it.
 
-use fret_core::history::CycleRecord;
+use fret_core::history::{CycleRecord, STEP_COLUMNS};
 use fret_core::model::Dimension;
 use fret_core::plan::Coupling;
 use fret_core::study::{Loaded, NormalForm, TangentialForm};
 use fret_core::units::Units;
 
-use super::Measured;
-use super::rolled::Rolled;
-use crate::drawing::chart::joined;
-use crate::drawing::scale::Label;
+use super::{Measured, Rolled};
+use crate::drawing::{Label, joined};
 use fret_results::Results;
 
 /// Share of the largest force below which there is none.
@@ -44,13 +42,6 @@ pub struct Overview<'a> {
     pub spans: Vec<[usize; 2]>,
 }
 
-/// A cycle of a stage.
-#[derive(Debug, Clone, Copy)]
-pub struct Cycle {
-    /// Its increments: first, and one after the last.
-    pub span: [usize; 2],
-}
-
 impl<'a> Overview<'a> {
     /// Looks at a run.
     pub fn of(results: &'a Results) -> Self {
@@ -62,7 +53,6 @@ impl<'a> Overview<'a> {
         let is_worn = table.column("max_worn_depth").iter().any(|depth| *depth > 0.0);
         let normal_form = NormalForm::of(results.plan()).filter(|_| !is_worn);
         let rolled = Rolled::of(results);
-        let shifts = table.column("shift_x").iter().zip(table.column("shift_y"));
         // The closed forms of partial slip are those of bodies that stay opposite each other.
         let stays = normal_form.as_ref().filter(|_| rolled.is_none());
         let tangential_form = stays.zip(direction).and_then(|(normal, direction)| {
@@ -72,7 +62,7 @@ impl<'a> Overview<'a> {
             results,
             direction,
             tangential: history.iter().map(|loaded| loaded.components([cosine, sine])[0]).collect(),
-            shift: shifts.map(|(x, y)| cosine * x + sine * y).collect(),
+            shift: table.vectors("shift").iter().map(|[x, y]| cosine * x + sine * y).collect(),
             normal_form,
             tangential_form,
             twists: twists(results),
@@ -182,27 +172,34 @@ impl<'a> Overview<'a> {
         match cycles.len().checked_sub(2) {
             Some(last) if cycles.len() > MANY_CYCLES => {
                 let called = format!(" The last two of {} cycles.", cycles.len());
-                ([cycles[last].span[0], cycles[last + 1].span[1]], called)
+                ([cycles[last][0], cycles[last + 1][1]], called)
             }
             _ => ([0, self.results.table.rows()], String::new()),
         }
     }
 
-    /// The cycles that are done.
-    pub fn cycles(&self) -> Vec<Cycle> {
+    /// The cycles that are done, by their increments: first, and one after the last.
+    pub fn cycles(&self) -> Vec<[usize; 2]> {
         let mut cycles = Vec::new();
         for (stage, [first, end]) in self.spans.iter().copied().enumerate() {
             let stage = self.results.case().stages.get(stage);
             if let Some(stage) = stage.filter(|stage| stage.cycles().is_some() && stage.increments > 0) {
-                let length = stage.increments;
-                cycles.extend(
-                    (1..=(end - first) / length).map(|number| Cycle {
-                        span: [first + (number - 1) * length, first + number * length],
-                    }),
-                );
+                let starts = (first..end).step_by(stage.increments);
+                let spans = starts.map(|start| [start, start + stage.increments]);
+                cycles.extend(spans.filter(|[_, after]| *after <= end));
             }
         }
         cycles
+    }
+
+    /// A number of the history in an increment, with its unit.
+    pub fn told(&self, column: &str, row: usize) -> String {
+        self.number(self.results.table.at(column, row), unit_of(column))
+    }
+
+    /// A column of the history as the name of an axis.
+    pub fn label_of(&self, column: &str) -> Label {
+        self.label(&column.replace('_', " "), unit_of(column))
     }
 
     /// Positions, among the kept increments, of at most so many that show the run: the ends of its stages, and others evenly.
@@ -245,6 +242,11 @@ impl Measured for Overview<'_> {
     }
 }
 
+/// The kind of the unit of a column of the history.
+fn unit_of(column: &str) -> &'static str {
+    STEP_COLUMNS.iter().find(|known| known.name == column).map_or("", |known| known.unit)
+}
+
 /// What acts at the end of every increment.
 fn history(results: &Results) -> Vec<Loaded> {
     let table = &results.table;
@@ -275,15 +277,15 @@ fn twists(results: &Results) -> bool {
 /// Direction of the largest tangential force, or else of the largest shift, with the sign of the first push.
 fn direction(results: &Results) -> Option<[f64; 2]> {
     let table = &results.table;
-    let along = |x: &str, y: &str, scale: f64| {
-        let vectors = || table.column(x).iter().zip(table.column(y)).map(|(x, y)| [*x, *y]);
-        let longest = vectors().map(|[x, y]| x.hypot(y)).fold(0.0, f64::max);
-        let first = vectors().find(|[x, y]| x.hypot(*y) > 0.5 * longest)?;
+    let along = |name: &str, scale: f64| {
+        let vectors = table.vectors(name);
+        let longest = vectors.iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max);
+        let first = vectors.iter().find(|[x, y]| x.hypot(*y) > 0.5 * longest)?;
         (longest > NOTHING * scale).then(|| first.map(|part| part / first[0].hypot(first[1])))
     };
     let largest = |name: &str| table.column(name).iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-    let found = along("tangential_force_x", "tangential_force_y", largest("normal_force"))
-        .or_else(|| along("shift_x", "shift_y", largest("approach")))?;
+    let found =
+        along("tangential_force", largest("normal_force")).or_else(|| along("shift", largest("approach")))?;
     // What is a direction along an axis up to rounding is one.
     Some(found.map(|part| if part.abs() < 1e-6 { 0.0 } else { part }))
 }

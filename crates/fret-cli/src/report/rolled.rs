@@ -21,8 +21,7 @@ impl Rolled {
     /// The way of a run; `None` where nothing rolls.
     pub fn of(results: &Results) -> Option<Self> {
         let table = &results.table;
-        let places: Vec<[f64; 2]> =
-            table.column("roll_x").iter().zip(table.column("roll_y")).map(|(x, y)| [*x, *y]).collect();
+        let places = table.vectors("roll");
         let start = results.case().start.map_or([0.0; 2], |loads| loads.roll);
         let before = std::iter::once(&start).chain(&places);
         let steps: Vec<[f64; 2]> =

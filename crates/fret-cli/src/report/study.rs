@@ -8,10 +8,8 @@ use fret_core::model::Dimension;
 use fret_core::study::{Convergence, Kind, Source};
 use maud::{Markup, html};
 
-use super::html::{chapter, grid, side_by_side, table};
-use super::{read_answer, whole_page};
-use crate::drawing::chart::{Chart, Curve, Stroke};
-use crate::drawing::scale::Label;
+use super::{chapter, grid, number, read_answer, side_by_side, table, whole_page};
+use crate::drawing::{Chart, Curve, Label};
 use crate::failure::Failure;
 use crate::study::record::{LevelRecord, LineRecord, StudyRecord, UnsolvedRecord};
 use crate::study::table::{ErrorColumn, columns, increments, kind_name};
@@ -69,7 +67,7 @@ fn measured_by(study: &StudyRecord) -> Markup {
             (Some(Source::Finest), _) => "finest".to_owned(),
             (None, _) => "–".to_owned(),
         };
-        Some(vec![in_words(name, dimension), super::html::number(reference), by])
+        Some(vec![in_words(name, dimension), number(reference), by])
     };
     let rows: Vec<Vec<String>> = study.measured_by.iter().filter_map(row).collect();
     html! { @if !rows.is_empty() { (table(&["quantity", "reference at the end", "errors against"], &rows)) } }
@@ -89,9 +87,7 @@ fn refined(study: &StudyRecord, line: &LineRecord) -> Markup {
             let at = |level: &LevelRecord| Some([of(level), column.of(level)[0]?]);
             let mut points: Vec<[f64; 2]> = levels.iter().filter_map(at).collect();
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            let line = Curve::line(points, column.name, place);
-            let dots = Curve { name: None, ..line.clone() }.drawn(Stroke::Dots);
-            [line, dots]
+            Curve::line(points, &column.name, place).dotted()
         };
         known.iter().take(COLOURS).enumerate().flat_map(curve).collect()
     };
@@ -105,7 +101,7 @@ fn refined(study: &StudyRecord, line: &LineRecord) -> Markup {
         Kind::Tolerance => "tolerance",
         Kind::Cells | Kind::Together => "cells along x",
     };
-    let time = Label { name: "time".to_owned(), unit: Some("s".to_owned()) };
+    let time = Label::with("time", Some("s".to_owned()));
     let figures = [
         figure(Label::plain(what), &resolution, "Error of every quantity over the resolution."),
         figure(time, &|level| level.wall_s, "The same over the time that the level took."),

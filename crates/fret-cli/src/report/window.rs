@@ -1,11 +1,11 @@
 //! The part of the grid that maps show, and the line through it that sections follow.
 
-use super::Measured;
-use super::overview::Overview;
-use crate::drawing::raster::{Raster, pixels_for};
+use super::{Measured, Overview};
+use crate::drawing::{Raster, pixels_for};
 use crate::failure::Failure;
 use fret_core::model::Dimension;
-use fret_results::{Field, Fields};
+use fret_results::Fields;
+use ndarray::Array2;
 
 /// Cells around the contact that are shown.
 const MARGIN: usize = 2;
@@ -25,18 +25,13 @@ impl Window {
     }
 
     /// Takes in all cells of a field that are not zero.
-    pub fn widen(&mut self, field: &Field) {
-        for i in 0..self.grid[0] {
-            for j in 0..self.grid[1] {
-                if field.at(i, j) != 0.0 {
-                    self.take([i, j]);
-                }
-            }
-        }
+    pub fn widen(&mut self, field: &Array2<f64>) {
+        let seen = field.indexed_iter().filter(|(_, value)| **value != 0.0);
+        seen.for_each(|(cell, _)| self.take(cell.into()));
     }
 
     /// Takes in a cell.
-    pub fn take(&mut self, cell: [usize; 2]) {
+    fn take(&mut self, cell: [usize; 2]) {
         for axis in 0..2 {
             self.low[axis] = self.low[axis].min(cell[axis]);
             self.high[axis] = self.high[axis].max(cell[axis]);
@@ -128,9 +123,25 @@ impl Section {
     }
 
     /// Values of a field along it.
-    pub fn values(&self, field: &Field) -> Vec<f64> {
-        let at = |k: usize| if self.upright { field.at(self.line, k) } else { field.at(k, self.line) };
-        (0..self.along.len()).map(at).collect()
+    pub fn values(&self, field: &Array2<f64>) -> Vec<f64> {
+        if self.upright { field.row(self.line) } else { field.column(self.line) }.to_vec()
+    }
+
+    /// Shear along a direction, at a position among the kept increments.
+    pub fn shear(
+        &self,
+        fields: &Fields,
+        position: usize,
+        [cosine, sine]: [f64; 2],
+    ) -> Result<Vec<f64>, Failure> {
+        let parts = [fields.field("shear_x", position)?, fields.field("shear_y", position)?];
+        let [x, y] = parts.map(|part| self.values(&part));
+        Ok(x.iter().zip(&y).map(|(x, y)| cosine * x + sine * y).collect())
+    }
+
+    /// Points of some of its cells as a curve.
+    pub fn points(&self, [first, last]: [usize; 2], value: impl Fn(usize) -> f64) -> Vec<[f64; 2]> {
+        (first..=last).map(|k| [self.along[k], value(k)]).collect()
     }
 
     /// Where a place along it lies on the surface.
@@ -150,9 +161,9 @@ mod tests {
 
     #[test]
     fn a_window_holds_every_contact_with_a_margin() {
-        let mut field = Field { cells: [20, 20], values: vec![0.0; 400] };
-        field.values[5 * 20 + 9] = 1.0;
-        field.values[7 * 20 + 19] = 2.0;
+        let mut field = Array2::zeros((20, 20));
+        field[[5, 9]] = 1.0;
+        field[[7, 19]] = 2.0;
         let mut window = Window::new([20, 20]);
         assert_eq!(window.part(), Part { first: [0, 0], cells: [20, 20] });
         window.widen(&field);

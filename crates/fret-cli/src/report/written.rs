@@ -9,7 +9,7 @@ use crate::failure::Failure;
 
 /// An answer of another command, as it was written; `again` says what to do where it cannot be read.
 pub fn read_answer<T: DeserializeOwned>(path: &Path, again: &str) -> Result<T, Failure> {
-    let refuse = |why: String| Failure::Call(format!("{}: {why}", path.display()), again.to_owned());
+    let refuse = |why: String| Failure::call(format!("{}: {why}", path.display()), again);
     let text = fs::read(path).map_err(|error| refuse(error.to_string()))?;
     serde_json::from_slice(&text).map_err(|error| refuse(format!("cannot be read: {error}")))
 }

@@ -5,9 +5,7 @@ use fret_core::model::Dimension;
 use fret_core::study::{Form, Kind, Line, Quantity, RefinementStudy};
 use maud::{Markup, html};
 
-use crate::drawing::Drawing;
-use crate::drawing::frame::{Frame, room_for};
-use crate::drawing::scale::{Axis, Label};
+use crate::drawing::{Axis, Drawing, Frame, Label, room_for};
 use crate::study::table::kind_name;
 
 const PANEL: f64 = 420.0;

@@ -115,6 +115,11 @@ impl StudyRecord {
             let level = |judged: &Judged| Some(LevelRecord::new(study.level(judged.place)?, judged));
             LineRecord { refined: line.kind, levels: line.levels.iter().filter_map(level).collect() }
         };
+        let left_out = |(place, why): &(Place, String)| {
+            let variation = study.resolutions().at(*place);
+            let (cells, increments) = (variation.cells, variation.increments);
+            UnsolvedRecord { cells, increments, message: why.clone() }
+        };
         Self {
             status: "studied".to_owned(),
             title: title.to_owned(),
@@ -129,14 +134,7 @@ impl StudyRecord {
             }),
             kinds: Kind::ALL.to_vec(),
             lines: lines.iter().map(line).collect(),
-            unsolved: unsolved
-                .iter()
-                .map(|(place, why)| {
-                    let variation = study.resolutions().at(*place);
-                    let (cells, increments) = (variation.cells, variation.increments);
-                    UnsolvedRecord { cells, increments, message: why.clone() }
-                })
-                .collect(),
+            unsolved: unsolved.iter().map(left_out).collect(),
             advice: advice.to_vec(),
             choice: choice.to_owned(),
         }

@@ -4,7 +4,6 @@ use fret_core::model::Dimension;
 use fret_core::study::{Convergence, Kind, Quantity};
 
 use crate::study::record::{LevelRecord, LineRecord, OfQuantities, StudyRecord};
-use crate::study::words::name;
 use crate::table::Columns;
 
 /// What the errors of the fields are called.
@@ -37,7 +36,7 @@ pub fn increments(counts: &[usize]) -> String {
 /// Errors with their orders: what they are of, and both of a level.
 pub struct ErrorColumn {
     /// What they are of, in words.
-    pub name: &'static str,
+    pub name: String,
     /// The quantity of interest; none of fields, whose error is that of the mean square.
     quantity: Option<Quantity>,
 }
@@ -47,8 +46,8 @@ impl ErrorColumn {
     pub fn known(lines: &[LineRecord]) -> Vec<Self> {
         let levels = || lines.iter().flat_map(|line| &line.levels);
         let dimension = levels().next().map_or(Dimension::Plane, |level| Dimension::of(level.cells));
-        let quantities = Quantity::ALL.map(|of| Self { name: name(of, dimension), quantity: Some(of) });
-        let fields = [PRESSURE, SHEAR].map(|name| Self { name, quantity: None });
+        let quantities = Quantity::ALL.map(|of| Self { name: of.in_words(dimension), quantity: Some(of) });
+        let fields = [PRESSURE, SHEAR].map(|name| Self { name: name.to_owned(), quantity: None });
         let is_known = |column: &Self| levels().any(|level| column.of(level)[0].is_some());
         quantities.into_iter().chain(fields).filter(is_known).collect()
     }
@@ -84,7 +83,9 @@ pub fn columns<'a>(study: &'a StudyRecord, known: &'a [ErrorColumn]) -> Columns<
         let shows_none = convergence.is_some_and(|convergence| convergence != Convergence::Observed);
         let shown = |value: f64| if value < ROUNDING { "0".to_owned() } else { format!("{value:.1e}") };
         columns
-            .column(column.name, "", move |(_, level)| column.of(level)[0].map_or("-".to_owned(), shown))
+            .column(column.name.as_str(), "", move |(_, level)| {
+                column.of(level)[0].map_or("-".to_owned(), shown)
+            })
             .column("order", "", move |(number, level)| {
                 let none = if *number > 0 && shows_none { "-" } else { "" };
                 column.of(level)[1].map_or(none.to_owned(), |order| format!("{order:.1}"))

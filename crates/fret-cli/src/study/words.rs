@@ -2,7 +2,7 @@
 
 use fret_core::model::Dimension;
 use fret_core::model::stage::Stage;
-use fret_core::study::{Advice, Convergence, Quantity, Reference, Source};
+use fret_core::study::{Advice, Convergence, Quantity, Reference, Resolutions, Source};
 
 use crate::figures::counted;
 
@@ -13,23 +13,10 @@ pub const NO_ERRORS: &str = "no errors: no closed form is available for this cas
 /// Why a largest pressure has no limit.
 pub const GROWS: &str = "it grows with the number of cells at a sharp edge, a tip or a crease";
 
-/// A quantity of interest in words.
-pub fn name(quantity: Quantity, dimension: Dimension) -> &'static str {
-    match (quantity, dimension) {
-        (Quantity::MaxPressure, _) => "max pressure",
-        (Quantity::Approach, _) => "approach",
-        (Quantity::ContactArea, Dimension::Plane) => "contact area",
-        (Quantity::ContactArea, Dimension::Line) => "contact width",
-        (Quantity::StickArea, Dimension::Plane) => "stick area",
-        (Quantity::StickArea, Dimension::Line) => "stick width",
-        (Quantity::Shift, _) => "shift",
-        (Quantity::DissipatedEnergy, _) => "dissipated energy",
-        (Quantity::Creepage, _) => "creepage",
-        (Quantity::Spin, _) => "spin",
-        (Quantity::RollingFriction, _) => "rolling friction",
-        (Quantity::MaxWornDepth, _) => "max worn depth",
-        (Quantity::WornVolume, _) => "worn volume",
-    }
+/// The names of the quantities that are so.
+fn names(dimension: Dimension, is_so: impl Fn(Quantity) -> bool) -> String {
+    let all = Quantity::ALL.into_iter().filter(|quantity| is_so(*quantity));
+    all.map(|quantity| quantity.in_words(dimension)).collect::<Vec<_>>().join(", ")
 }
 
 /// The first stage after one that rolls on to a steady state, where it does not do so itself.
@@ -56,15 +43,13 @@ pub fn measured_by(reference: &Reference, shown: &dyn Fn(Quantity) -> bool, dime
         (Source::Finest, "the finest level, whose own error is then unknown".to_owned()),
     ];
     let said = sources.into_iter().filter_map(|(source, words)| {
-        let numbers: Vec<&str> = Quantity::ALL
-            .into_iter()
-            .filter(|quantity| reference.source(*quantity) == Some(source) && shown(*quantity))
-            .filter(|quantity| {
-                source != Source::Limit || reference.convergence(*quantity) != Some(Convergence::TwoLevels)
-            })
-            .map(|quantity| name(quantity, dimension))
-            .collect();
-        (!numbers.is_empty()).then(|| format!("{} compared with {words}", numbers.join(", ")))
+        let numbers = names(dimension, |quantity| {
+            let two_levels = reference.convergence(quantity) == Some(Convergence::TwoLevels);
+            reference.source(quantity) == Some(source)
+                && shown(quantity)
+                && !(source == Source::Limit && two_levels)
+        });
+        (!numbers.is_empty()).then(|| format!("{numbers} compared with {words}"))
     });
     said.collect::<Vec<_>>().join("\n")
 }
@@ -76,27 +61,26 @@ pub fn without_order(
     dimension: Dimension,
 ) -> String {
     let of = |convergence: Convergence| {
-        let is_one = |quantity: &Quantity| {
-            let is_told = convergence == Convergence::NoLimit || shown(*quantity);
-            reference.convergence(*quantity) == Some(convergence) && is_told
-        };
-        let names: Vec<&str> =
-            Quantity::ALL.into_iter().filter(is_one).map(|quantity| name(quantity, dimension)).collect();
-        (!names.is_empty()).then(|| names.join(", "))
+        names(dimension, |quantity| {
+            let is_told = convergence == Convergence::NoLimit || shown(quantity);
+            reference.convergence(quantity) == Some(convergence) && is_told
+        })
     };
-    let mut said = Vec::new();
-    if let Some(names) = of(Convergence::NoLimit) {
-        said.push(format!("{names}: no limit, {GROWS}; no error is told"));
-    }
-    if let Some(names) = of(Convergence::NotAsymptotic) {
-        said.push(format!("{names}: not in the asymptotic range (no order between half and twice the expected one), not extrapolated"));
-    }
-    if let Some(names) = of(Convergence::TwoLevels) {
-        said.push(format!(
-            "{names}: two levels cannot show convergence; the whole difference between them is taken for the error of the finer one, twice that for the coarser"
-        ));
-    }
-    said.join("\n")
+    let no_limit = format!("no limit, {GROWS}; no error is told");
+    let said = [
+        (Convergence::NoLimit, no_limit.as_str()),
+        (
+            Convergence::NotAsymptotic,
+            "not in the asymptotic range (no order between half and twice the expected one), not extrapolated",
+        ),
+        (
+            Convergence::TwoLevels,
+            "two levels cannot show convergence; the whole difference between them is taken for the error of the finer one, twice that for the coarser",
+        ),
+    ];
+    let said = said.map(|(convergence, why)| (of(convergence), why)).into_iter();
+    let said = said.filter(|(names, _)| !names.is_empty()).map(|(names, why)| format!("{names}: {why}"));
+    said.collect::<Vec<_>>().join("\n")
 }
 
 /// Whether a number is ever anything but zero.
@@ -104,15 +88,14 @@ fn happens(reference: &Reference, quantity: Quantity) -> bool {
     reference.of(quantity).iter().flatten().any(|value| *value != [0.0; 2])
 }
 
-/// One sentence: what to choose for each accuracy, and why another study may choose otherwise. `cells` and `increments` tell which of them the study has several of, and
-/// `ny_over_nx` the shape of its grids.
+/// One sentence: what to choose for each accuracy, and why another study may choose otherwise; `ny_over_nx` is the shape of its grids.
 pub fn choice(
     advice: &[Advice],
     reference: &Reference,
-    cells: bool,
-    increments: bool,
+    resolutions: &Resolutions,
     (dimension, ny_over_nx): (Dimension, f64),
 ) -> String {
+    let [cells, increments] = [resolutions.cells.len() > 1, resolutions.increments.len() > 1];
     let each = advice.iter().map(|advice| {
         let percent = format!("for {} % ", 100.0 * advice.accuracy);
         let grid = advice.cells.map(|nx| {
@@ -131,18 +114,14 @@ pub fn choice(
     if cells || increments {
         let open = advice.iter().any(|advice| cells && advice.cells.is_none());
         let more = if open { " Finer grids determine the cells: --cells with larger numbers." } else { "" };
-        let is_one = |wanted: Convergence| {
-            move |quantity: &Quantity| {
-                reference.convergence(*quantity) == Some(wanted)
-                    && (wanted == Convergence::NoLimit || happens(reference, *quantity))
-            }
-        };
-        let names = |wanted| {
-            let all = Quantity::ALL.into_iter().filter(is_one(wanted));
-            all.map(|quantity| name(quantity, dimension)).collect::<Vec<_>>().join(", ")
+        let of = |wanted: Convergence| {
+            names(dimension, |quantity| {
+                reference.convergence(quantity) == Some(wanted)
+                    && (wanted == Convergence::NoLimit || happens(reference, quantity))
+            })
         };
         let mut why = String::new();
-        let [unbounded, outside] = [Convergence::NoLimit, Convergence::NotAsymptotic].map(names);
+        let [unbounded, outside] = [Convergence::NoLimit, Convergence::NotAsymptotic].map(of);
         if !unbounded.is_empty() {
             why += &format!(" The {unbounded} is left out: it has no limit.");
         }

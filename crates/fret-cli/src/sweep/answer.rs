@@ -90,12 +90,8 @@ impl Path {
             let ends = values.fold([0.0_f64; 2], |[low, high], value| [low.min(value), high.max(value)]);
             ends[1] - ends[0]
         };
-        let sideways = |axis: usize| {
-            range(&|step: &StepRecord| step.tangential_force[axis])
-                * range(&|step: &StepRecord| step.shift[axis])
-        };
-        let twists = range(&|step: &StepRecord| step.twist_moment) * range(&|step: &StepRecord| step.twist)
-            > sideways(0).max(sideways(1));
+        let sideways = |axis: usize| range(&|of| of.tangential_force[axis]) * range(&|of| of.shift[axis]);
+        let twists = range(&|of| of.twist_moment) * range(&|of| of.twist) > sideways(0).max(sideways(1));
         let [cosine, sine] = direction(steps);
         let along = |[x, y]: [f64; 2]| cosine * x + sine * y;
         let point = |step: &StepRecord| {
@@ -209,6 +205,30 @@ impl Answer {
     }
 }
 
+/// How many points came to what.
+pub struct Counts {
+    /// Solved.
+    pub solved: usize,
+    /// Refused.
+    pub refused: usize,
+    /// Not solved for another reason.
+    pub failed: usize,
+}
+
+impl Counts {
+    /// Of the answers that there are.
+    pub fn of(answers: &[Option<Answer>]) -> Self {
+        let count = |status| answers.iter().flatten().filter(|answer| answer.status() == status).count();
+        let [solved, refused] = [SOLVED, "refused"].map(count);
+        Self { solved, refused, failed: answers.iter().flatten().count() - solved - refused }
+    }
+
+    /// Those without numbers.
+    pub fn unsolved(&self) -> usize {
+        self.refused + self.failed
+    }
+}
+
 fn stage_ends(steps: &[StepRecord]) -> Vec<StepRecord> {
     let ends = |pair: &[StepRecord]| pair[0].stage != pair[1].stage;
     steps.windows(2).filter(|pair| ends(pair)).map(|pair| &pair[0]).chain(steps.last()).cloned().collect()
@@ -226,7 +246,7 @@ mod tests {
         let solved = json!({"status": "solved", "message": "", "increments_in_common": 3, "stages": [], "end": null, "cycle": null});
         let solved: Answer = serde_json::from_value(solved).unwrap();
         let why = "not computed: the slip of increment 3 is not kept";
-        let answer = solved.asked(Err(Failure::Call(why.to_owned(), String::new())));
+        let answer = solved.asked(Err(Failure::call(why, String::new())));
         assert_eq!((answer.status(), answer.message()), ("solved", why));
         assert_eq!(answer.why(), [why]);
         let read: Answer = serde_json::from_value(json!(answer)).unwrap();
@@ -241,7 +261,7 @@ mod tests {
             "end": null, "stages": [], "cycle": null}"#;
         let answer: Answer = serde_json::from_str(solved).unwrap();
         assert!(answer.is_whole());
-        let failure = Failure::Call("stresses need 12 GB, and there are 8 GB".to_owned(), String::new());
+        let failure = Failure::call("stresses need 12 GB, and there are 8 GB", String::new());
         let waiting = answer.awaiting_memory(failure);
         let again: Answer = serde_json::from_str(&serde_json::to_string(&waiting).unwrap()).unwrap();
         for answer in [waiting, again] {

@@ -58,20 +58,15 @@ const OF_PARAMETER: [Row<ParameterRecord>; 8] = [
 
 /// Of a short crack from the surface.
 const OF_CRACK: [Row<CrackRecord>; 6] = [
-    ("crack_fate", "", |crack| match crack {
-        CrackRecord::Followed { fate, .. } | CrackRecord::None { fate, .. } => Some(json!(fate)),
-    }),
-    ("crack_x", "length", |crack| followed(crack).map(|[x, ..]| json!(x))),
-    ("crack_y", "length", |crack| followed(crack).map(|[_, y, ..]| json!(y))),
-    ("crack_angle", "degrees", |crack| followed(crack).map(|[_, _, angle, _]| json!(angle))),
-    ("crack_length", "length", |crack| followed(crack).map(|[.., length]| json!(length))),
-    ("crack_cycles", "", |crack| match crack {
+    ("crack_fate", "", |crack| Some(json!(crack.fate))),
+    ("crack_x", "length", |crack| Some(json!(crack.course.as_ref()?.x))),
+    ("crack_y", "length", |crack| Some(json!(crack.course.as_ref()?.y))),
+    ("crack_angle", "degrees", |crack| Some(json!(crack.course.as_ref()?.angle))),
+    ("crack_length", "length", |crack| Some(json!(crack.course.as_ref()?.length))),
+    ("crack_cycles", "", |crack| match crack.fate.as_str() {
         // a crack that does not grow, or stops, is followed without end
-        CrackRecord::Followed { fate, .. } if ["does_not_grow", "stops"].contains(&fate.as_str()) => {
-            Some(json!(INFINITE))
-        }
-        CrackRecord::Followed { cycles, .. } => cycles.map(|cycles| json!(cycles)),
-        CrackRecord::None { .. } => None,
+        "does_not_grow" | "stops" => Some(json!(INFINITE)),
+        _ => crack.course.as_ref()?.cycles.map(|cycles| json!(cycles)),
     }),
 ];
 
@@ -153,14 +148,6 @@ fn resistance(found: Option<Resistance>) -> Option<Value> {
     })
 }
 
-/// Place, angle and length of a crack that was followed.
-fn followed(crack: &CrackRecord) -> Option<[f64; 4]> {
-    match crack {
-        CrackRecord::Followed { x, y, angle, length, .. } => Some([*x, *y, *angle, *length]),
-        CrackRecord::None { .. } => None,
-    }
-}
-
 /// All columns of some answers.
 pub fn columns(answers: &[Option<Answer>]) -> Vec<SummaryColumn> {
     let numbers: Vec<Option<&Numbers>> =
@@ -189,16 +176,16 @@ pub fn columns(answers: &[Option<Answer>]) -> Vec<SummaryColumn> {
     }
     let stress = |place: usize| -> Option<&StressRecord> { numbers[place]?.stress.as_ref() };
     for measure in Measure::ALL {
-        let largest = |place: usize| {
-            stress(place)?.largest.iter().find(|largest| largest.measure == measure.name()).cloned()
-        };
-        let name = format!("max_{}", measure.name());
-        asked.push(of_records(name.clone(), "pressure", &|place| Some(json!(largest(place)?.value))));
-        asked
-            .push(of_records(format!("{name}_depth"), "length", &|place| Some(json!(largest(place)?.depth))));
+        let name = measure.name();
+        let largest = |place: usize| stress(place)?.largest.iter().find(|found| found.measure == name);
+        let value = |place: usize| Some(json!(largest(place)?.value));
+        let depth = |place: usize| Some(json!(largest(place)?.depth));
+        asked.push(of_records(format!("max_{name}"), "pressure", &value));
+        asked.push(of_records(format!("max_{name}_depth"), "length", &depth));
     }
+    let fatigue = |place: usize| stress(place)?.fatigue.as_ref();
     for name in Parameter::ALL.map(Parameter::name).into_iter().chain(RUIZ) {
-        let parameter = |place: usize| stress(place)?.fatigue.as_ref()?.parameters.get(name);
+        let parameter = |place: usize| fatigue(place)?.parameters.get(name);
         let largest = |place: usize| Some(json!(parameter(place)?.largest));
         asked.push(of_records(name.to_owned(), kind_of_stress(name), &largest));
         for (end, kind, of) in OF_PARAMETER {
@@ -206,15 +193,13 @@ pub fn columns(answers: &[Option<Answer>]) -> Vec<SummaryColumn> {
         }
     }
     for (name, kind, of) in OF_CRACK {
-        let value = |place: usize| of(stress(place)?.fatigue.as_ref()?.crack.as_ref()?);
-        asked.push(of_records(name.to_owned(), kind, &value));
+        asked.push(of_records(name.to_owned(), kind, &|place| of(fatigue(place)?.crack.as_ref()?)));
     }
     for (name, kind, of) in OF_COATING {
         asked.push(of_records(name.to_owned(), kind, &|place| of(stress(place)?.coating.as_ref()?)));
     }
     for (name, kind, of) in OF_HEAT {
-        let value = |place: usize| of(numbers[place]?.heat.as_ref()?);
-        asked.push(of_records(name.to_owned(), kind, &value));
+        asked.push(of_records(name.to_owned(), kind, &|place| of(numbers[place]?.heat.as_ref()?)));
     }
     asked.retain(|column| column.values.iter().any(|value| !value.is_null()));
     columns.extend(asked);
@@ -239,6 +224,7 @@ fn told<R>(column: &Column<R>, record: &R) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::commands::stress_record::CrackFollowed;
 
     #[test]
     fn the_summary_has_columns_of_the_tables() {
@@ -254,14 +240,17 @@ mod tests {
     #[test]
     fn a_crack_that_stops_has_an_endless_life() {
         let (_, _, cycles) = OF_CRACK[5];
-        let crack = |fate: &str, cycles: Option<f64>| CrackRecord::Followed {
+        let crack = |fate: &str, cycles: Option<f64>| CrackRecord {
             fate: fate.to_owned(),
-            x: 0.0,
-            y: 0.0,
-            angle: 0.0,
-            towards: [1.0, 0.0],
-            length: 1.0,
-            cycles,
+            reason: None,
+            course: Some(CrackFollowed {
+                x: 0.0,
+                y: 0.0,
+                angle: 0.0,
+                towards: [1.0, 0.0],
+                length: 1.0,
+                cycles,
+            }),
         };
         for fate in ["does_not_grow", "stops"] {
             assert_eq!(cycles(&crack(fate, None)), Some(json!("inf")));

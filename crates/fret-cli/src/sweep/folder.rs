@@ -2,7 +2,6 @@
 //! case, of the files it names, of the state it starts from and of the version), `points.json` (the points in their order), `summary.csv` (a
 //! line a point), of samples `uncertainty.json`.
 
-use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -13,12 +12,11 @@ use serde_json::{Map, Value, json};
 
 use crate::failure::{Failure, Unwritten};
 use crate::manner::Manner;
-use crate::sweep::columns::{SummaryColumn, columns};
+use crate::sweep::columns::SummaryColumn;
 use crate::sweep::record::{PointOfSweep, SweepRecord};
 use crate::sweep::setting::Setting;
-use crate::sweep::{Answer, Point, Question, Sampled, Spread};
-use fret_results::Origin;
-use fret_results::{folder_below, resolved_path};
+use crate::sweep::{Answer, Point, Question, Spread};
+use fret_results::{Origin, folder_below, resolved_path};
 
 /// Version of the folder's format.
 const FORMAT: u32 = 2;
@@ -67,9 +65,9 @@ impl<'a> SweepFolder<'a> {
         let path = resolved_path(path);
         let holds_something = fs::read_dir(&path).is_ok_and(|mut entries| entries.next().is_some());
         if path.exists() && !path.is_dir() || holds_something && !path.join(SWEEP).exists() {
-            return Err(Failure::Call(
+            return Err(Failure::call(
                 format!("{}: holds files that are no sweep of fret", path.display()),
-                "choose another folder with --out DIR".to_owned(),
+                "choose another folder with --out DIR",
             ));
         }
         fs::create_dir_all(&path).map_err(Unwritten::at(&path))?;
@@ -98,92 +96,63 @@ impl<'a> SweepFolder<'a> {
             values: keys.iter().zip(&point.values).map(|(key, value)| (key.clone(), plain(value))).collect(),
             case: point.case_file.text.clone(),
         };
-        self.manner.write(&self.place(point), format!("{:#}\n", json!(kept)).as_bytes())
+        self.manner.write_json(&self.place(point), &kept)
     }
 
     /// Writes the summary of what is finished.
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn summarise(&self, question: &Question, answers: &[Option<Answer>]) -> Result<PathBuf, Unwritten> {
-        let setting = Setting::of(question);
-        let columns = columns(answers);
-        let head = ["point".to_owned()]
-            .into_iter()
-            .chain(question.keys.iter().map(|key| setting.heading_of_key(key)));
-        let head = head
-            .chain(["status".to_owned()])
-            .chain(columns.iter().map(|column| setting.heading(column)))
-            .chain(["message".to_owned()]);
-        let mut text = head.map(|cell| quoted(&cell)).collect::<Vec<_>>().join(",") + "\n";
+    pub fn summarise(
+        &self,
+        (question, setting): (&Question, &Setting),
+        answers: &[Option<Answer>],
+        columns: &[SummaryColumn],
+    ) -> Result<PathBuf, Unwritten> {
+        let line = |first: &str, keys: Vec<String>, status: &str, numbers: Vec<String>, last: &str| {
+            let cells = [&[first.to_owned()], &keys[..], &[status.to_owned()], &numbers, &[last.to_owned()]];
+            cells.concat().join(",") + "\n"
+        };
+        let keys = question.keys.iter().map(|key| quoted(&setting.heading_of_key(key)));
+        let names = columns.iter().map(|column| quoted(&setting.heading(column)));
+        let mut text = line("point", keys.collect(), "status", names.collect(), "message");
         for (number, (point, answer)) in question.points.iter().zip(answers).enumerate() {
             let Some(answer) = answer else { continue };
-            let _ = write!(text, "{number}");
-            for value in point.values.iter().map(plain) {
-                let _ = write!(text, ",{}", cell(&value));
-            }
-            let _ = write!(text, ",{}", cell(&json!(answer.status())));
-            for column in &columns {
-                let _ = write!(text, ",{}", cell(&column.values[number]));
-            }
-            let _ = writeln!(text, ",{}", cell(&json!(answer.message())));
+            let values = point.values.iter().map(|value| cell(&plain(value)));
+            let numbers = columns.iter().map(|column| cell(&column.values[number]));
+            let [status, message] = [answer.status(), answer.message()].map(|word| cell(&json!(word)));
+            text += &line(&number.to_string(), values.collect(), &status, numbers.collect(), &message);
         }
         let path = self.path.join(SUMMARY);
         self.manner.write(&path, text.as_bytes())?;
         Ok(path)
     }
 
-    /// Writes what the samples of a sweep say, where it has some, at each point of its axes; gives it to a person.
+    /// Writes what the samples of a sweep say, at each point of its axes; gives it to a person.
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn spread(
-        &self,
-        question: &Question,
-        answers: &[Option<Answer>],
-    ) -> Result<Option<String>, Unwritten> {
-        let Some(design) = &question.design else { return Ok(None) };
-        // Means and quantiles of lives of which some have no bound are none: such a column tells nothing.
-        let is_bounded = |column: &SummaryColumn| column.numbers().iter().all(|value| !value.is_infinite());
-        let setting = Setting::of(question);
-        let columns: Vec<_> = columns(answers)
-            .into_iter()
-            .filter(is_bounded)
-            .map(|column| Sampled {
-                heading: setting.heading(&column),
-                numbers: column.numbers(),
-                name: column.name,
-            })
-            .collect();
-        let keys = question.drawn_keys();
-        let beside = question.keys.len() - keys.len();
-        let firsts = question.points.iter().step_by(design.points().max(1));
-        let at = firsts.map(|point| {
-            let values: Vec<_> = question.keys.iter().cloned().zip(point.values[..beside].to_vec()).collect();
-            (setting.place(values.iter().map(|(key, value)| (key, value))), values)
-        });
-        let spread = Spread::new(keys, design, at.collect(), &columns);
-        self.manner
-            .write(&self.path.join(UNCERTAINTY), format!("{:#}\n", json!(spread.record())).as_bytes())?;
-        Ok(Some(spread.table()))
+    pub fn spread(&self, spread: &Spread<'_>) -> Result<String, Unwritten> {
+        let record = spread.record();
+        self.manner.write_json(&self.path.join(UNCERTAINTY), &record)?;
+        Ok(spread.table(&record))
     }
 
     /// Writes down which points there are, in their order: what the page of the sweep is made from.
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn list(&self, question: &Question) -> Result<(), Unwritten> {
+    pub fn list(&self, question: &Question, setting: &Setting) -> Result<(), Unwritten> {
         let point = |point: &Point| PointOfSweep {
             values: point.values.iter().map(plain).collect(),
             file: self.file_name(point),
         };
-        let Setting { units, dimension } = Setting::of(question);
         let record = SweepRecord {
             title: question.points.first().and_then(|point| title_of(&point.case_file.text)),
             keys: question.keys.clone(),
             drawn: question.drawn_keys().to_vec(),
-            units,
-            dimension,
+            units: setting.units.clone(),
+            dimension: setting.dimension,
             points: question.points.iter().map(point).collect(),
         };
         self.manner.write(&self.path.join(RECORD), format!("{}\n", json!(record)).as_bytes())

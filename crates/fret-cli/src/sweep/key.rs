@@ -10,40 +10,27 @@ use toml::{Table, Value};
 /// # Errors
 /// What stands where the key leads, when it leads nowhere.
 pub fn put(case: &mut Table, key: &str, value: &Value) -> Result<(), String> {
-    match key.split_once('.') {
-        None => {
-            case.insert(key.to_owned(), value.clone());
-            Ok(())
-        }
-        Some((first, rest)) => {
-            let inner = case.entry(first).or_insert_with(|| Value::Table(Table::new()));
-            put_into(inner, first, rest, value)
-        }
+    let nothing = || Value::Table(Table::new());
+    let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
+    let (mut here, mut place) = (case.entry(first).or_insert_with(nothing), first.to_owned());
+    for part in rest.into_iter().flat_map(|rest| rest.split('.')) {
+        here = match here {
+            Value::Table(table) => table.entry(part).or_insert_with(nothing),
+            Value::Array(items) => {
+                let index = entry_of(items, &place, part)?;
+                &mut items[index]
+            }
+            other => return Err(format!("{place} is {other}, which has no entry `{part}`")),
+        };
+        place = format!("{place}.{part}");
     }
+    *here = value.clone();
+    Ok(())
 }
 
 /// Parts of a key that are no numbers of entries.
 pub fn words_of(key: &str) -> Vec<&str> {
     key.split('.').filter(|part| part.parse::<usize>().is_err()).collect()
-}
-
-fn put_into(here: &mut Value, place: &str, key: &str, value: &Value) -> Result<(), String> {
-    let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
-    let entry = match here {
-        Value::Table(table) => table.entry(first).or_insert_with(|| Value::Table(Table::new())),
-        Value::Array(items) => {
-            let index = entry_of(items, place, first)?;
-            &mut items[index]
-        }
-        other => return Err(format!("{place} is {other}, which has no entry `{first}`")),
-    };
-    match rest {
-        None => {
-            *entry = value.clone();
-            Ok(())
-        }
-        Some(rest) => put_into(entry, &format!("{place}.{first}"), rest, value),
-    }
 }
 
 fn entry_of(items: &[Value], place: &str, word: &str) -> Result<usize, String> {

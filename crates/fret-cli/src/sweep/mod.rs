@@ -14,9 +14,9 @@ pub mod record;
 pub mod setting;
 mod spread;
 
-pub use answer::{Answer, Besides, Path, direction, last_cycle};
+pub use answer::{Answer, Besides, Counts, Path, direction, last_cycle};
 pub use folder::{Kept, POINTS, RECORD, SweepFolder, UNCERTAINTY};
 pub use planned::{Planned, asks_for_more};
 pub use question::{Point, Question};
 pub use record::SweepRecord;
-pub use spread::{Quantities, QuantityRecord, Sampled, Spread, SpreadRecord};
+pub use spread::{Quantities, QuantityRecord, Spread, SpreadRecord};

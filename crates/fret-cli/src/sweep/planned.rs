@@ -1,13 +1,14 @@
 //! The open points of a sweep, planned: what they have in common.
 
 use std::collections::HashMap;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::run::{InCommon, beginnings};
 
 use crate::interrupt;
 use crate::sweep::Point;
+use crate::threads::locked;
 use fret_results::Origin;
 
 /// Whether the case of a point asks for stresses, temperatures or resistances.
@@ -46,6 +47,6 @@ impl Planned {
 
     /// The plan of a point, where it was made and kept; once.
     pub fn plan_of(&self, number: usize) -> Option<Plan> {
-        self.plans.lock().unwrap_or_else(PoisonError::into_inner).remove(&number)
+        locked(&self.plans).remove(&number)
     }
 }

@@ -79,7 +79,7 @@ impl Reader<'_> {
         let table = match DeTable::parse(text) {
             Ok(table) => table.into_inner(),
             Err(error) => {
-                self.refuse(error.span(), &in_words(error.message()), None);
+                self.refuse(error.span(), in_words(error.message()), None);
                 return Err(self.refusal());
             }
         };
@@ -97,8 +97,8 @@ impl Reader<'_> {
                 }
                 "samples" => self.samples(value, &mut drawn),
                 other => self.refuse(
-                    Some(name.span()),
-                    &format!(
+                    name.span(),
+                    format!(
                         "unknown key `{other}`, expected `base`, `axes`, `point`, `distributions` or `samples`"
                     ),
                     None,
@@ -116,7 +116,7 @@ impl Reader<'_> {
         }
         let count = axes.iter().try_fold(1_usize, |count, axis| count.checked_mul(axis.rows.len()));
         if count.is_none_or(|count| count > MOST_POINTS) {
-            self.refuse(None, &format!("more than {MOST_POINTS} points"), None);
+            self.refuse(None, format!("more than {MOST_POINTS} points"), None);
         }
         let Some((base, folder)) = base.filter(|_| self.mistakes.is_empty()) else {
             return Err(self.refusal());
@@ -149,7 +149,7 @@ impl Reader<'_> {
                 }) {
                     Ok(table) => Some((table, path.parent().map_or(here, Path::to_owned))),
                     Err(error) => {
-                        self.refuse(Some(value.span()), error.trim_start_matches("error: ").trim(), None);
+                        self.refuse(value.span(), error.trim_start_matches("error: ").trim(), None);
                         None
                     }
                 }
@@ -159,7 +159,7 @@ impl Reader<'_> {
                 _ => None,
             },
             _ => {
-                self.refuse(Some(value.span()), "base: must be the name of a case file, or a table", None);
+                self.refuse(value.span(), "base: must be the name of a case file, or a table", None);
                 None
             }
         }
@@ -168,7 +168,7 @@ impl Reader<'_> {
     /// Axes of a table; tables in it are parts of dotted keys.
     fn axes(&mut self, value: &Spanned<DeValue<'_>>, before: &str, axes: &mut Vec<Axis>) {
         let DeValue::Table(table) = value.get_ref() else {
-            self.refuse(Some(value.span()), "axes: must be a table of lists", None);
+            self.refuse(value.span(), "axes: must be a table of lists", None);
             return;
         };
         for (name, value) in table {
@@ -180,8 +180,8 @@ impl Reader<'_> {
                     axes.push(Axis { keys: vec![key], rows, span: value.span() });
                 }
                 _ => self.refuse(
-                    Some(value.span()),
-                    &format!("axes: `{key}` must be a list of at least one value"),
+                    value.span(),
+                    format!("axes: `{key}` must be a list of at least one value"),
                     Some(&format!("\"{key}\" = [...]")),
                 ),
             }
@@ -190,18 +190,14 @@ impl Reader<'_> {
 
     fn points(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Axis> {
         let Value::Array(points) = self.plain(value) else {
-            self.refuse(Some(value.span()), "point: must be a list of tables, [[point]]", None);
+            self.refuse(value.span(), "point: must be a list of tables, [[point]]", None);
             return None;
         };
         let tables: Vec<Table> = points.iter().filter_map(Value::as_table).map(flattened).collect();
         let keys: Vec<String> = tables.first().map_or_else(Vec::new, |first| first.keys().cloned().collect());
         let alike = tables.iter().all(|table| table.keys().eq(keys.iter()));
         if keys.is_empty() || tables.len() < points.len() || !alike {
-            self.refuse(
-                Some(value.span()),
-                "point: every [[point]] must have the same keys, at least one",
-                None,
-            );
+            self.refuse(value.span(), "point: every [[point]] must have the same keys, at least one", None);
             return None;
         }
         let rows = tables.iter().map(|table| table.values().cloned().collect()).collect();
@@ -213,11 +209,7 @@ impl Reader<'_> {
         let help = "\"friction.coefficient\" = { normal = { mean = 0.6, deviation = 0.05 } }";
         let DeValue::Table(table) = value.get_ref() else {
             let key = before.trim_end_matches('.');
-            self.refuse(
-                Some(value.span()),
-                &format!("distributions: `{key}` has no distribution"),
-                Some(help),
-            );
+            self.refuse(value.span(), format!("distributions: `{key}` has no distribution"), Some(help));
             return;
         };
         for (name, value) in table {
@@ -232,7 +224,7 @@ impl Reader<'_> {
             }
             let plain = self.plain(value);
             if let Err(message) = drawn.add(key, plain) {
-                self.refuse(Some(value.span()), &message, Some(help));
+                self.refuse(value.span(), message, Some(help));
             }
         }
     }
@@ -242,7 +234,7 @@ impl Reader<'_> {
         let plain = self.plain(value);
         if let Err(message) = drawn.count(plain) {
             let help = "[samples]\ncount = 256\nseed = 1\nindices = true";
-            self.refuse(Some(value.span()), &message, Some(help));
+            self.refuse(value.span(), message, Some(help));
         }
         drawn.samples = Some(value.span());
     }
@@ -267,7 +259,7 @@ impl Reader<'_> {
                 if let Some(twice) = axes.iter().flat_map(|axis| &axis.keys).find(|key| keys.contains(key)) {
                     let message =
                         format!("distributions: `{twice}` has values already, in [axes] or [[point]]");
-                    self.refuse(Some(span), &message, Some("a distribution or values"));
+                    self.refuse(span, message, Some("a distribution or values"));
                     return None;
                 }
                 axes.push(Axis { keys, rows, span });
@@ -275,7 +267,7 @@ impl Reader<'_> {
             }
             Err(message) => {
                 let place = drawn.samples.clone().unwrap_or(span);
-                self.refuse(Some(place), &message, Some("[samples]\ncount = 256"));
+                self.refuse(place, message, Some("[samples]\ncount = 256"));
                 None
             }
         }
@@ -294,7 +286,7 @@ impl Reader<'_> {
                 let row = &axis.rows[number / others % axis.rows.len()];
                 for (key, value) in axis.keys.iter().zip(row) {
                     if let Err(nowhere) = put(&mut case, key, value) {
-                        self.refuse(Some(axis.span.clone()), &format!("{key}: {nowhere}"), None);
+                        self.refuse(axis.span.clone(), format!("{key}: {nowhere}"), None);
                         return points; // every point would say so again
                     }
                     values.push(value.clone());
@@ -305,7 +297,7 @@ impl Reader<'_> {
                     let path = folder.join(format!("point {number}"));
                     points.push(Point { values, case_file: CaseFile { path, text, beside: None } });
                 }
-                Err(error) => self.refuse(None, &error.to_string(), None),
+                Err(error) => self.refuse(None, error.to_string(), None),
             }
         }
         points
@@ -321,7 +313,7 @@ impl Reader<'_> {
             let axis = axes.iter().find_map(|axis| axis.keys.iter().find(|key| names(key)).zip(Some(axis)));
             if let Some((key, axis)) = axis {
                 let message = format!("{key}: {}", mistake.message);
-                self.refuse(Some(axis.span.clone()), &message, mistake.help.as_deref());
+                self.refuse(axis.span.clone(), message, mistake.help.as_deref());
             }
         }
     }
@@ -346,15 +338,21 @@ impl Reader<'_> {
         match format!("number = {text}").parse::<Table>() {
             Ok(mut table) => table.remove("number").unwrap_or(Value::Boolean(false)),
             Err(error) => {
-                self.refuse(Some(value.span()), &in_words(error.message()), None);
+                self.refuse(value.span(), in_words(error.message()), None);
                 Value::Boolean(false)
             }
         }
     }
 
-    fn refuse(&mut self, span: Option<Range<usize>>, message: &str, help: Option<&str>) {
+    fn refuse(
+        &mut self,
+        span: impl Into<Option<Range<usize>>>,
+        message: impl Into<String>,
+        help: Option<&str>,
+    ) {
         if self.mistakes.len() < MOST_MISTAKES {
-            self.mistakes.push(Mistake { message: message.to_owned(), help: help.map(str::to_owned), span });
+            let (span, help) = (span.into(), help.map(str::to_owned));
+            self.mistakes.push(Mistake { message: message.into(), help, span });
         }
     }
 

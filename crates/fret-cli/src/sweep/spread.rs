@@ -9,6 +9,9 @@ use fret_core::uncertainty::{
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use crate::sweep::Question;
+use crate::sweep::columns::SummaryColumn;
+use crate::sweep::setting::Setting;
 use crate::table::Columns;
 
 /// Width of the names on the left.
@@ -83,108 +86,90 @@ impl QuantityRecord {
     }
 }
 
-/// A number of all samples.
-pub struct Sampled {
-    /// Its name.
-    pub name: String,
-    /// The same with its unit.
-    pub heading: String,
-    /// Its values; what is missing is not a number.
-    pub numbers: Vec<f64>,
-}
-
-/// What the samples say about every number of the answers, at each point of the axes beside them.
+/// The samples of a sweep, with the columns of their numbers: all samples of the first point of the axes, then of the next.
 pub struct Spread<'a> {
-    keys: &'a [String],
+    question: &'a Question,
+    setting: &'a Setting,
     design: &'a SampleDesign,
-    columns: &'a [Sampled],
-    points: Vec<AtPoint>,
-}
-
-/// Values of the keys that are not drawn, with their names.
-type Values = Vec<(String, toml::Value)>;
-
-/// The samples at one point of the axes.
-struct AtPoint {
-    /// The same in words.
-    place: String,
-    values: Values,
-    /// Numbers of the answers, in the order of their columns.
-    quantities: Vec<(String, QuantityRecord)>,
+    columns: Vec<&'a SummaryColumn>,
 }
 
 impl<'a> Spread<'a> {
-    /// Of columns of numbers, all samples of the first point, then of the next. `at`: the values of the
-    /// points, in words and as they are, empty ones where there is no axis.
-    pub fn new(
-        keys: &'a [String],
-        design: &'a SampleDesign,
-        at: Vec<(String, Values)>,
-        columns: &'a [Sampled],
-    ) -> Self {
-        let own = if design.indices { 2 * design.count } else { design.count };
-        let each = design.points();
-        let quantity = |(name, values): (&String, &[f64])| {
-            let statistics = statistics(&values[..own.min(values.len())])?;
-            let asked = design.indices && statistics.varies(ROUNDING);
-            let indices = asked.then(|| sensitivity(values, design.count)).flatten();
-            let sobol_indices = indices.map(|indices| keys.iter().cloned().zip(indices).collect());
-            Some((name.clone(), QuantityRecord { statistics, sobol_indices }))
-        };
-        let at_point = |(number, (place, values)): (usize, (String, Values))| {
-            let part = |values: &'a [f64]| values.chunks(each).nth(number).unwrap_or_default();
-            let parts = columns.iter().map(|column| (&column.name, part(&column.numbers)));
-            AtPoint { place, values, quantities: parts.filter_map(quantity).collect() }
-        };
-        Self { keys, design, columns, points: at.into_iter().enumerate().map(at_point).collect() }
+    /// Of a sweep that has samples. Means and quantiles of lives of which some have no bound are none: such a column tells nothing.
+    pub fn of(question: &'a Question, setting: &'a Setting, columns: &'a [SummaryColumn]) -> Option<Self> {
+        let is_bounded = |column: &&SummaryColumn| column.numbers().iter().all(|value| !value.is_infinite());
+        let columns = columns.iter().filter(is_bounded).collect();
+        Some(Self { question, setting, design: question.design.as_ref()?, columns })
+    }
+
+    /// The points of the axes, by the keys that are not drawn; one without any where there is no axis.
+    fn points(&self) -> impl Iterator<Item = Vec<(&String, &toml::Value)>> {
+        let keys = &self.question.keys;
+        let beside = &keys[..keys.len() - self.question.drawn_keys().len()];
+        let firsts = self.question.points.iter().step_by(self.design.points().max(1));
+        firsts.map(move |point| beside.iter().zip(&point.values).collect())
     }
 
     /// For `uncertainty.json`.
     pub fn record(&self) -> SpreadRecord {
-        let quantities = |point: &AtPoint| -> Quantities { point.quantities.iter().cloned().collect() };
-        let point = |point: &AtPoint| {
-            let values = point.values.iter().map(|(key, value)| (key.clone(), json!(value)));
-            PointRecord { values: values.collect(), quantities: quantities(point) }
-        };
-        let alone = match &self.points[..] {
-            [only] if only.values.is_empty() => Some(quantities(only)),
-            _ => None,
-        };
         let SampleDesign { distributions, count, seed, indices } = self.design;
+        let keys = self.question.drawn_keys();
+        let own = if *indices { 2 * count } else { *count };
+        let quantity = |(column, numbers): (&&SummaryColumn, &Vec<f64>), point: usize| {
+            let values = numbers.chunks(self.design.points()).nth(point).unwrap_or_default();
+            let statistics = statistics(&values[..own.min(values.len())])?;
+            let asked = *indices && statistics.varies(ROUNDING);
+            let found = asked.then(|| sensitivity(values, *count)).flatten();
+            let sobol_indices = found.map(|indices| keys.iter().cloned().zip(indices).collect());
+            Some((column.name.clone(), QuantityRecord { statistics, sobol_indices }))
+        };
+        let numbers: Vec<Vec<f64>> = self.columns.iter().map(|column| column.numbers()).collect();
+        let at_point = |(point, values): (usize, Vec<(&String, &toml::Value)>)| PointRecord {
+            values: values.into_iter().map(|(key, value)| (key.clone(), json!(value))).collect(),
+            quantities: self.columns.iter().zip(&numbers).filter_map(|of| quantity(of, point)).collect(),
+        };
+        let mut points: Vec<PointRecord> = self.points().enumerate().map(at_point).collect();
+        let alone = points.pop_if(|only| only.values.is_empty()).map(|only| only.quantities);
         SpreadRecord {
             count: *count,
             seed: *seed,
             indices: *indices,
-            distributions: self.keys.iter().cloned().zip(distributions.iter().copied()).collect(),
+            distributions: keys.iter().cloned().zip(distributions.iter().copied()).collect(),
             quantile_fractions: QUANTILES,
-            points: alone.is_none().then(|| self.points.iter().map(point).collect()),
+            points: alone.is_none().then_some(points),
             quantities: alone,
         }
     }
 
-    /// For a person: the numbers that vary, point by point.
-    pub fn table(&self) -> String {
-        let parts = self.points.iter().map(|point| {
-            let part = self.part(point);
-            if point.place.is_empty() { part } else { format!("{}\n{part}", point.place) }
-        });
-        parts.collect::<Vec<_>>().join("\n\n")
+    /// A record for a person: the numbers that vary, point by point.
+    pub fn table(&self, record: &SpreadRecord) -> String {
+        let parts = record.points.iter().flatten().map(|point| &point.quantities).chain(&record.quantities);
+        let part = |(place, quantities)| match self.setting.place(place) {
+            place if place.is_empty() => self.part(quantities),
+            place => format!("{place}\n{}", self.part(quantities)),
+        };
+        self.points().zip(parts).map(part).collect::<Vec<_>>().join("\n\n")
     }
 
-    fn part(&self, point: &AtPoint) -> String {
-        let varying = || point.quantities.iter().filter(|(_, of)| of.statistics.varies(ROUNDING));
-        let samples = varying().map(|(_, of)| of.statistics.count).max().unwrap_or(0);
+    fn part(&self, quantities: &Quantities) -> String {
+        let of = |column: &&SummaryColumn| {
+            let (name, of) = quantities.get_key_value(&column.name)?;
+            of.statistics.varies(ROUNDING).then(|| (name.clone(), of.clone()))
+        };
+        let varying: Vec<(String, QuantityRecord)> = self.columns.iter().filter_map(of).collect();
+        let samples = varying.iter().map(|(_, of)| of.statistics.count).max().unwrap_or(0);
         let with_unit = |name: &str| {
             let column = self.columns.iter().find(|column| column.name == name);
-            column.map_or(name, |column| &column.heading).to_owned()
+            column.map_or_else(|| name.to_owned(), |column| self.setting.heading(column))
         };
         let columns = QuantityRecord::columns(format!("{samples} samples"), with_unit);
-        let mut table = columns.text(&WIDTHS, None, varying());
+        let mut table = columns.text(&WIDTHS, None, &varying);
         if self.design.indices {
             table.push_str("\nSobol' indices, first order and total\n");
-            for (name, of) in varying() {
+            for (name, of) in &varying {
                 let Some(indices) = &of.sobol_indices else { continue };
-                for (key, index) in self.keys.iter().filter_map(|key| indices.get_key_value(key)) {
+                let keys = self.question.drawn_keys();
+                for (key, index) in keys.iter().filter_map(|key| indices.get_key_value(key)) {
                     let _ =
                         writeln!(table, "{name:<NAMES$}{key:<34} {:>6.3} {:>6.3}", index.first, index.total);
                 }

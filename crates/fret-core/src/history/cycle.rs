@@ -61,6 +61,18 @@ pub enum CycleRegime {
     GrossSlip,
 }
 
+impl CycleRegime {
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::FullStick => "full_stick",
+            Self::PartialSlip => "partial_slip",
+            Self::Mixed => "mixed",
+            Self::GrossSlip => "gross_slip",
+        }
+    }
+}
+
 /// A cycle as a whole. Units are those of the case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CycleRecord {

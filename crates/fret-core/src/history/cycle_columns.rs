@@ -55,7 +55,7 @@ pub static CYCLE_COLUMNS: &[Column<CycleRecord>] = &[
         }),
     ),
     word("regime", "sliding condition: full_stick, partial_slip, mixed or gross_slip", NO_UNIT, |cycle| {
-        cycle.regime.map_or("", cycle_regime_word)
+        cycle.regime.map_or("", CycleRegime::name)
     }),
     real("closure", "cycle-to-cycle change of tractions, forces and motions, relative", RATIO, |cycle| {
         cycle.closure
@@ -148,15 +148,6 @@ pub static CYCLE_COLUMNS: &[Column<CycleRecord>] = &[
     ),
 ];
 
-pub(super) fn cycle_regime_word(regime: CycleRegime) -> &'static str {
-    match regime {
-        CycleRegime::FullStick => "full_stick",
-        CycleRegime::PartialSlip => "partial_slip",
-        CycleRegime::Mixed => "mixed",
-        CycleRegime::GrossSlip => "gross_slip",
-    }
-}
-
 pub(super) fn drive_word(drive: Drive) -> &'static str {
     match drive {
         Drive::Tangential => "tangential",
@@ -218,7 +209,7 @@ mod tests {
         for regime in
             [CycleRegime::FullStick, CycleRegime::PartialSlip, CycleRegime::Mixed, CycleRegime::GrossSlip]
         {
-            assert_eq!(json!(cycle_regime_word(regime)), json!(regime));
+            assert_eq!(json!(regime.name()), json!(regime));
         }
         for regime in
             [Regime::Apart, Regime::FullStick, Regime::PartialSlip, Regime::GrossSlip, Regime::Frictionless]

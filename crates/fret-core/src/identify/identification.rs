@@ -1,5 +1,7 @@
 //! The whole question: a log, identified by a case.
 
+use serde::Serialize;
+
 use crate::case::Case;
 use crate::history::{CycleRegime, SLIDING_ENERGY_RATIO};
 use crate::measured::scales;
@@ -68,7 +70,7 @@ pub struct Cycle {
 }
 
 /// What was taken off the fitted cycle.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Removed {
     /// Offset of the displacement [length].
     pub displacement_offset: f64,

@@ -76,6 +76,25 @@ impl Quantity {
             Self::WornVolume => "worn_volume",
         }
     }
+
+    /// Its name, as a person reads it: a line contact has widths in place of areas.
+    pub fn in_words(self, dimension: Dimension) -> String {
+        self.name().replace("area", dimension.area()).replace('_', " ")
+    }
+
+    /// The kind of its unit, in the words of [`Units::of`](crate::units::Units::of); empty of a ratio.
+    pub fn kind(self) -> &'static str {
+        match self {
+            Self::MaxPressure => "pressure",
+            Self::Approach | Self::Shift | Self::MaxWornDepth => "length",
+            Self::ContactArea | Self::StickArea => "length^2",
+            Self::DissipatedEnergy => "force x length",
+            Self::Creepage => "",
+            Self::Spin => "1/length",
+            Self::RollingFriction => "force",
+            Self::WornVolume => "length^3",
+        }
+    }
 }
 
 /// What the cells alone say.

@@ -54,7 +54,8 @@ impl Units {
         Self::unit(units, kind, dimension).map_or_else(String::new, |unit| format!(" {unit}"))
     }
 
-    fn unit(units: Option<&Self>, kind: &str, dimension: Dimension) -> Option<String> {
+    /// The unit of a kind of quantity alone, where the case declares units and the quantity has one of them.
+    pub fn unit(units: Option<&Self>, kind: &str, dimension: Dimension) -> Option<String> {
         let kind = dimension.kind(kind);
         let told = ["length", "force", "pressure", "rad", "degrees"].iter().any(|word| kind.contains(word));
         units.filter(|_| told).map(|units| units.of(kind))

@@ -5,9 +5,7 @@ use fret_core::plan::Coupling;
 use fret_core::study::PartialSlip;
 use maud::{Markup, html};
 
-use crate::report::Measured;
-use crate::report::html::{chapter, deviation, table};
-use crate::report::overview::Overview;
+use crate::report::{Measured, Overview, chapter, deviation, table};
 
 /// Numbers against the closed form at the end of each stage.
 pub fn comparison(view: &Overview<'_>) -> Markup {

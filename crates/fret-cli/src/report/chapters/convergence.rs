@@ -2,11 +2,9 @@
 
 use maud::{Markup, html};
 
-use crate::drawing::chart::{Chart, Curve, Stroke, joined};
-use crate::drawing::scale::Label;
+use crate::drawing::{Chart, Curve, Label, Stroke, joined};
 use crate::figures::duration;
-use crate::report::html::{chapter, pairs, side_by_side};
-use crate::report::overview::Overview;
+use crate::report::{Overview, chapter, pairs, side_by_side};
 
 /// Residuals and work.
 pub fn convergence(view: &Overview<'_>) -> Markup {
@@ -27,16 +25,15 @@ pub fn convergence(view: &Overview<'_>) -> Markup {
         curve("convolutions", Stroke::Line),
     );
     let sum = |name: &str| history.column(name).iter().sum::<f64>();
-    let count = |name: &str| html! { (sum(name)) };
     let rows = [
-        ("convolutions in all".to_owned(), count("convolutions")),
-        ("preconditioner passes".to_owned(), count("preconditioner_passes")),
-        ("changes of the zones".to_owned(), count("outer_iterations")),
-        ("time in increments".to_owned(), html! { (duration(sum("wall_s"))) }),
+        ("convolutions in all", sum("convolutions").to_string()),
+        ("preconditioner passes", sum("preconditioner_passes").to_string()),
+        ("changes of the zones", sum("outer_iterations").to_string()),
+        ("time in increments", duration(sum("wall_s"))),
     ];
     let figures = [
         residual.figure("How well every increment satisfies its equations, relative and dimensionless."),
         work.figure("Applications of the elastic operator: the work, independent of the machine."),
     ];
-    chapter("Convergence", &html! { (side_by_side(&figures)) (pairs(&rows)) })
+    chapter("Convergence", &html! { (side_by_side(&figures)) (pairs(rows)) })
 }

@@ -3,11 +3,8 @@
 use fret_core::history::CycleRecord;
 use maud::{Markup, html};
 
-use crate::drawing::chart::{Chart, Curve};
-use crate::drawing::scale::{Label, ends};
-use crate::report::Measured;
-use crate::report::html::{chapter, side_by_side};
-use crate::report::overview::Overview;
+use crate::drawing::{Chart, Curve, Label, ends};
+use crate::report::{Measured, Overview, chapter, side_by_side};
 
 /// With fewer cycles there is nothing to see over their number.
 const FEWEST: usize = 3;

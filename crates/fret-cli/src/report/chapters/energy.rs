@@ -3,11 +3,8 @@
 use fret_core::study::{PartialSlip, TangentialForm};
 use maud::{Markup, html};
 
-use crate::drawing::chart::{Chart, Curve, joined};
-use crate::drawing::scale::Label;
-use crate::report::Measured;
-use crate::report::html::{chapter, deviation, side_by_side, table};
-use crate::report::overview::Overview;
+use crate::drawing::{Chart, Curve, joined};
+use crate::report::{Measured, Overview, chapter, deviation, side_by_side, table};
 
 /// Cycles listed one by one.
 const MOST_CYCLES: usize = 12;
@@ -30,8 +27,7 @@ pub fn energy(view: &Overview<'_>) -> Markup {
         curves.push(Curve::dashed(points(&exact), "closed form", 1));
         caption += " Dashed: the closed form.";
     }
-    let axes = [Label::plain("increment"), view.label("dissipated energy", "force x length")];
-    let chart = Chart::new("dissipated energy over the increments", axes, curves);
+    let chart = Chart::over_increments("dissipated energy", view.label_of("dissipated_energy"), curves);
     let mut parts = vec![chart.figure(&caption)];
     parts.extend(account(view).map(|account| html! { div { (account) } }));
     chapter("Dissipated energy", &side_by_side(&parts))

@@ -3,12 +3,9 @@
 use fret_results::ERROR_BARS;
 use maud::{Markup, html};
 
-use crate::estimate::{BarsRecord, Cell, Estimate};
+use crate::estimate::{BarRow, BarsRecord, Cell, Estimate};
 use crate::failure::Failure;
-use crate::report::Measured;
-use crate::report::html::{chapter, number, short, table};
-use crate::report::overview::Overview;
-use crate::report::written::read_answer;
+use crate::report::{Measured, Overview, chapter, number, read_answer, short, table};
 
 /// What brings them back where the file cannot be read.
 const AGAIN: &str = "fret run --resume --estimate-error writes it again";
@@ -20,31 +17,27 @@ pub fn error_bars(view: &Overview<'_>) -> Result<Markup, Failure> {
         return Ok(html! {});
     }
     let record: BarsRecord = read_answer(&path, AGAIN)?;
-    let estimate = Estimate::read_back(&record, view.results.plan());
-    let names: Vec<String> = estimate.bars.iter().map(|bars| view.stage_name(bars.stage)).collect();
-    let head: Vec<&str> = std::iter::once("at the end of").chain(names.iter().map(String::as_str)).collect();
-    let rows: Vec<Vec<String>> = estimate
-        .rows(&estimate.bars)
-        .into_iter()
-        .map(|row| {
-            let cell = |cell: Option<Cell>| match cell {
-                None => "-".to_owned(),
-                Some((value, Some(0.0))) => view.number(value, row.kind),
-                Some((value, Some(bar))) => {
-                    view.with_unit(format!("{} ± {}", number(value), short(bar)), row.kind)
-                }
-                Some((_, None)) => "no limit".to_owned(),
-            };
-            std::iter::once(row.name).chain(row.cells.into_iter().map(cell)).collect()
-        })
-        .collect();
+    let estimate = Estimate::of(record, view.results.plan());
+    let stages = &estimate.record.stages;
+    let names = stages.iter().map(|bars| bars.name.clone());
+    let head: Vec<String> = ["at the end of".to_owned()].into_iter().chain(names).collect();
+    let cell = |cell: Option<Cell>, kind: &str| match cell {
+        None => "-".to_owned(),
+        Some((value, Some(0.0))) => view.number(value, kind),
+        Some((value, Some(bar))) => view.with_unit(format!("{} ± {}", number(value), short(bar)), kind),
+        Some((_, None)) => "no limit".to_owned(),
+    };
+    let row = |BarRow { name, kind, cells }: BarRow| {
+        [name].into_iter().chain(cells.into_iter().map(|of| cell(of, kind))).collect()
+    };
+    let rows: Vec<Vec<String>> = estimate.rows(stages).into_iter().map(row).collect();
     let source = estimate.source().replace(" x ", " × ");
     Ok(chapter(
         "Error bars",
         &html! {
             p { "Errors of cells and increments, " (source) ": the true value of the model is expected within them." }
             (table(&head, &rows))
-            @for line in estimate.lacking(|stage| view.stage_name(stage)) { p class="small" { (line) } }
+            @for line in estimate.lacking() { p class="small" { (line) } }
         },
     ))
 }

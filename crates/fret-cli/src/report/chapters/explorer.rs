@@ -1,8 +1,6 @@
 //! The history as it moves: loop, sections and maps of an increment, and a slider that goes through the kept ones. Without scripts
 //! the increment of the largest load stands there.
 
-use std::borrow::Cow;
-
 use fret_core::model::Dimension;
 use maud::{Markup, PreEscaped, html};
 use serde_json::{Value, json};
@@ -11,15 +9,10 @@ use super::loading::loop_curves;
 use super::moment::{Ground, Moment, largest};
 use super::sections::seen;
 use super::zones::legend;
-use crate::drawing::chart::{Chart, Curve, Stroke, joined};
-use crate::drawing::figure_of;
-use crate::drawing::frame::Frame;
-use crate::drawing::map::Map;
-use crate::drawing::scale::{Label, ends};
+use crate::drawing::{Chart, Curve, Frame, Map, Stroke, ends, figure_of, joined};
 use crate::failure::Failure;
-use crate::report::Measured;
-use crate::report::html::{chapter, percent};
-use crate::report::overview::Overview;
+use crate::figures::percent;
+use crate::report::{Measured, Overview, chapter};
 
 /// Increments that the slider shows, at most, and at least where there are so many.
 const MOST: usize = 120;
@@ -134,7 +127,7 @@ impl Ground<'_> {
             id: Some(id),
             ..Curve::line(self.points(values), name, 0)
         };
-        let high = all.iter().map(|values| largest(values)).fold(0.0, f64::max);
+        let high = all.iter().map(|values| largest(*values)).fold(0.0, f64::max);
         let pressure = Chart {
             ranges: [x, Some([0.0, high])],
             ..Chart::new(
@@ -146,12 +139,8 @@ impl Ground<'_> {
         let mut charts = vec![(pressure, "Pressure along a line through the middle.".to_owned())];
         if self.has_shear {
             let bounds = moments.iter().filter_map(|moment| moment.bound.as_ref());
-            let most = moments
-                .iter()
-                .map(|moment| &moment.shear)
-                .chain(bounds)
-                .map(|values| largest(values))
-                .fold(0.0, f64::max);
+            let most =
+                moments.iter().map(|moment| &moment.shear).chain(bounds).map(largest).fold(0.0, f64::max);
             let mut curves = Vec::new();
             if let Some(bound) = &now.bound {
                 let below: Vec<f64> = bound.iter().map(|bound| -bound).collect();
@@ -210,17 +199,11 @@ impl Ground<'_> {
 
     fn maps(&self, now: &Moment) -> Result<Vec<Markup>, Failure> {
         let fields = &self.view.results.fields;
-        // A line contact is the same all along y, and its sections tell all.
-        let dimension = self.view.dimension();
-        let length = |name: &str| match dimension {
-            Dimension::Line if name == "y" => Label::plain(""),
-            _ => self.view.label(name, "length"),
-        };
         let edges = self.window.part().edges_in(fields);
         let map_of = |place: usize, what: &str, bar: Option<&str>, most: f64| Map {
             id: Some(["map-0", "map-1", "map-2"][place]),
             bar: bar.map(|name| (self.view.label(name, "pressure"), [0.0, most])),
-            ..Map::of_surface(what, length, edges, now.images[place].clone())
+            ..Map::of_surface(what, self.view.labels_of_surface(), edges, now.images[place].clone())
         };
         let mut figures = Vec::new();
         let mut place = 0;
@@ -234,7 +217,8 @@ impl Ground<'_> {
         if self.has_zones {
             add("stick and slip", None, 0.0, legend(), "What each cell did in the increment.")?;
         }
-        if dimension == Dimension::Line {
+        if self.view.dimension() == Dimension::Line {
+            // it is the same all along y, and its sections tell all
             return Ok(figures);
         }
         add("pressure", Some("pressure"), self.most[0], html! {}, "Contact pressure.")?;
@@ -245,7 +229,7 @@ impl Ground<'_> {
     }
 
     /// What is told of an increment in words.
-    fn words(&self, moment: &Moment) -> Vec<(Cow<'static, str>, &'static str, String)> {
+    fn words(&self, moment: &Moment) -> Vec<(String, &'static str, String)> {
         let (view, table, at) = (self.view, &self.view.results.table, moment.increment);
         let (stage, number) = view.place(at);
         let of = view.spans.get(stage).map_or(0, |[first, end]| end - first);
@@ -254,41 +238,26 @@ impl Ground<'_> {
             let value = values[at];
             view.number(if value.abs() <= ROUNDING * largest(values) { 0.0 } else { value }, kind)
         };
-        let mut words = vec![
-            (
-                "increment".into(),
-                "word-increment",
-                format!("{at}: {}, {number} of {of}", view.stage_name(stage)),
-            ),
-            ("normal force".into(), "word-force", view.number(table.at("normal_force", at), "force")),
-        ];
+        let mut words = Vec::new();
+        let mut add = |name: &str, id: &'static str, told: String| words.push((name.to_owned(), id, told));
+        add("increment", "word-increment", format!("{at}: {}, {number} of {of}", view.stage_name(stage)));
+        add("normal force", "word-force", view.told("normal_force", at));
         if view.twists {
-            words.push((
-                "torsional moment".into(),
-                "word-moment",
-                beside(table.column("twist_moment"), "force x length"),
-            ));
+            let moment = beside(table.column("twist_moment"), "force x length");
+            add("torsional moment", "word-moment", moment);
         } else if view.direction.is_some() {
-            words.push(("tangential force".into(), "word-tangential", beside(&view.tangential, "force")));
-            words.push(("displacement".into(), "word-shift", beside(&view.shift, "length")));
+            add("tangential force", "word-tangential", beside(&view.tangential, "force"));
+            add("displacement", "word-shift", beside(&view.shift, "length"));
         }
-        words.push((
-            "max pressure".into(),
-            "word-pressure",
-            view.number(table.at("max_pressure", at), "pressure"),
-        ));
+        add("max pressure", "word-pressure", view.told("max_pressure", at));
         if !view.is_frictionless() {
-            words.push((
-                "stick fraction".into(),
-                "word-stick",
-                percent(table.at("stick_area", at) / table.at("contact_area", at)),
-            ));
+            let stick = percent(table.at("stick_area", at) / table.at("contact_area", at));
+            add("stick fraction", "word-stick", stick);
         }
         if let Some(rolled) = &view.rolled {
             for column in &rolled.columns {
-                let number = || view.number(table.at(column.name, at), column.unit);
-                let told = if rolled.rolls[at] { number() } else { "–".to_owned() };
-                words.push((column.in_words().into(), column.name, told));
+                let told = if rolled.rolls[at] { view.told(column.name, at) } else { "–".to_owned() };
+                add(&column.in_words(), column.name, told);
             }
         }
         words
@@ -300,13 +269,8 @@ impl Ground<'_> {
         for (_, id, words) in self.words(moment) {
             changes.insert(id.to_owned(), json!({ "text": words }));
         }
-        if let Some([x, y]) = self
-            .view
-            .loop_points()
-            .get(moment.increment)
-            .map(|point| loop_frame.places(&[*point]))
-            .and_then(|places| places.first().copied())
-        {
+        let here = self.view.loop_points().get(moment.increment).map(|point| loop_frame.places(&[*point]));
+        for [x, y] in here.into_iter().flatten() {
             changes.insert("here".to_owned(), json!({ "cx": format!("{x:.1}"), "cy": format!("{y:.1}") }));
         }
         let mut line = |id: &str, frame: &Frame, values: &[f64]| {

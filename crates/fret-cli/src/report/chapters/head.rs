@@ -1,17 +1,13 @@
 //! The run at a glance: title, how it ended, its most telling numbers, what about them may mislead.
 
-use std::borrow::Cow;
-
 use fret_core::history::WornTo;
-use fret_core::model::Dimension;
 use fret_core::study::pressure_of_run_is_unbounded;
 use maud::{Markup, html};
 
-use crate::figures::{capitalised, counted, duration};
+use super::moment::largest;
+use crate::figures::{capitalised, counted, duration, percent};
 use crate::loop_numbers::sliding_condition;
-use crate::report::Measured;
-use crate::report::html::{percent, short};
-use crate::report::overview::Overview;
+use crate::report::{Measured, Overview, short};
 
 /// Title, how the run ended, and its most telling numbers.
 pub fn head(view: &Overview<'_>) -> Markup {
@@ -57,54 +53,45 @@ fn how_it_ended(view: &Overview<'_>) -> String {
     line.join(" · ")
 }
 
-fn cards(view: &Overview<'_>) -> Vec<(Cow<'static, str>, String)> {
+fn cards(view: &Overview<'_>) -> Vec<(String, String)> {
     let table = &view.results.table;
     let Some(last) = table.rows().checked_sub(1) else { return Vec::new() };
-    let largest = |name: &str| table.column(name).iter().copied().fold(0.0, f64::max);
-    let area = match view.dimension() {
-        Dimension::Plane => "max contact area",
-        Dimension::Line => "max contact width",
-    };
+    let largest = |name: &str| largest(table.column(name));
+    let area = format!("max contact {}", view.dimension().area());
     let case = view.results.case();
     let pressure = if pressure_of_run_is_unbounded(case) {
         "max pressure (no limit: it grows with the number of cells)"
     } else {
         "max pressure"
     };
-    let mut cards = vec![
-        (pressure.into(), view.number(largest("max_pressure"), "pressure")),
-        (area.into(), view.number(largest("contact_area"), "length^2")),
-    ];
+    let mut cards = Vec::new();
+    let mut add = |name: &str, told: String| cards.push((name.to_owned(), told));
+    add(pressure, view.number(largest("max_pressure"), "pressure"));
+    add(&area, view.number(largest("contact_area"), "length^2"));
     if view.direction.is_some() || view.twists {
-        cards.push(("max shear".into(), view.number(largest("max_shear"), "pressure")));
-        cards.push((
-            "stick at the end".into(),
-            percent(table.at("stick_cells", last) / table.at("contact_cells", last)),
-        ));
-        cards.push((
-            "dissipated energy".into(),
-            view.number(table.at("dissipated_energy", last), "force x length"),
-        ));
+        add("max shear", view.number(largest("max_shear"), "pressure"));
+        add("stick at the end", percent(table.at("stick_cells", last) / table.at("contact_cells", last)));
+        add("dissipated energy", view.told("dissipated_energy", last));
     }
     if let Some(cycle) = view.results.cycles.last().filter(|cycle| cycle.regime.is_some()) {
-        cards.push(("sliding condition".into(), sliding_condition(cycle).to_owned()));
+        add("sliding condition", sliding_condition(cycle));
     }
     if let Some(rolled) = view.rolled.as_ref().filter(|rolled| rolled.rolls[last]) {
         for column in &rolled.columns {
-            cards.push((column.in_words().into(), view.number(table.at(column.name, last), column.unit)));
+            add(&column.in_words(), view.told(column.name, last));
         }
     }
     if case.wear.is_some() {
-        cards.push(("wear volume".into(), view.number(table.at("worn_volume", last), "length^3")));
-        cards.push(("max wear depth".into(), view.number(table.at("max_worn_depth", last), "length")));
+        add("wear volume", view.told("worn_volume", last));
+        add("max wear depth", view.told("max_worn_depth", last));
     }
     if case.wear.as_ref().is_some_and(|wear| wear.debris.is_some()) {
-        cards.push(("debris".into(), view.number(table.at("debris_volume", last), "length^3")));
+        add("debris", view.told("debris_volume", last));
         if let Some(cycle) = view.results.cycles.last() {
-            cards.push(("cycles".into(), cycle.last_cycle.to_string()));
+            add("cycles", cycle.last_cycle.to_string());
         }
     }
-    cards.push(("max residual".into(), short(largest("residual"))));
+    add("max residual", short(largest("residual")));
     cards
 }
 

@@ -5,11 +5,8 @@ use fret_core::study::{PartialSlip, TangentialForm};
 use maud::{Markup, html};
 
 use super::loop_table::loop_table;
-use crate::drawing::chart::{Chart, Curve, Stroke, joined};
-use crate::drawing::scale::Label;
-use crate::report::Measured;
-use crate::report::html::{chapter, side_by_side};
-use crate::report::overview::{Cycle, Overview};
+use crate::drawing::{Chart, Curve, Label, Stroke, joined};
+use crate::report::{Measured, Overview, chapter, side_by_side};
 
 /// Earlier cycles that are drawn behind the last one.
 const MOST_BEHIND: usize = 8;
@@ -30,7 +27,7 @@ pub fn loading(view: &Overview<'_>) -> Markup {
         curves.insert(0, Curve::dashed(std::iter::once([0.0; 2]).chain(curve).collect(), name, 1));
         caption += &format!(" Dashed: {name}, without friction.");
     }
-    let axes = [view.label(closeness, "length"), view.label("normal force", "force")];
+    let axes = [view.label(closeness, "length"), view.label_of("normal_force")];
     let mut figures =
         vec![Chart::new(&format!("normal force over {closeness}"), axes, curves).figure(&caption)];
     if table.rows() > 1 {
@@ -40,21 +37,14 @@ pub fn loading(view: &Overview<'_>) -> Markup {
         if view.direction.is_some() {
             loads.push(Curve::line(over_number(&view.tangential), "tangential force", 1));
         }
-        let axes = [Label::plain("increment"), view.label("force", "force")];
-        let chart = Chart::new("forces over the increments", axes, loads);
+        let chart = Chart::over_increments("forces", view.label("force", "force"), loads);
         figures.push(chart.figure(&format!("Forces through the history, prescribed or found.{called}")));
     }
     if view.twists {
-        let axes = [Label::plain("increment"), view.label("torsional moment", "force x length")];
-        let moment = vec![Curve::line(
-            joined(table.column("increment"), table.column("twist_moment")),
-            "torsional moment",
-            0,
-        )];
-        figures.push(
-            Chart::new("moment over the increments", axes, moment)
-                .figure("Torsional moment through the history."),
-        );
+        let points = joined(table.column("increment"), table.column("twist_moment"));
+        let (name, label) = ("torsional moment", view.label("torsional moment", "force x length"));
+        let chart = Chart::over_increments("moment", label, vec![Curve::line(points, name, 0)]);
+        figures.push(chart.figure("Torsional moment through the history."));
     }
     chapter("Loading", &side_by_side(&figures))
 }
@@ -98,11 +88,11 @@ pub fn loop_curves(view: &Overview<'_>) -> Vec<Curve> {
         return vec![Curve::line(all, "computed", 0)];
     };
     // From the increment before: so the loop is closed.
-    let of = |cycle: &Cycle| all[cycle.span[0].saturating_sub(1)..cycle.span[1]].to_vec();
+    let of = |[first, after]: &[usize; 2]| all[first.saturating_sub(1)..*after].to_vec();
     let behind = if cycles.len() <= MOST_BEHIND {
         Curve { stroke: Stroke::Faint, ..Curve::line(all.clone(), "all of the history", 0) }
     } else {
-        let mut points = all[..cycles[0].span[1]].to_vec();
+        let mut points = all[..cycles[0][1]].to_vec();
         for part in 1..MOST_BEHIND {
             points.push([f64::NAN; 2]);
             points.extend(of(&cycles[part * (cycles.len() - 1) / MOST_BEHIND]));
@@ -133,6 +123,6 @@ pub fn stick_fraction(view: &Overview<'_>) -> Markup {
         caption +=
             " Dashed: the closed form. The computed area counts whole cells, and slip within an increment.";
     }
-    let axes = [Label::plain("increment"), Label::plain("stick fraction")];
-    Chart::new("stick fraction of the contact over the increments", axes, curves).figure(&caption)
+    let label = Label::plain("stick fraction");
+    Chart::over_increments("stick fraction of the contact", label, curves).figure(&caption)
 }

@@ -1,11 +1,11 @@
 //! What is shown of one kept increment: values along a section, and images of maps; and what all of them share.
 
+use ndarray::{Array2, Zip};
+
 use crate::failure::Failure;
 use crate::report::chapters::sections::shear_direction;
 use crate::report::chapters::surfaces;
-use crate::report::overview::Overview;
-use crate::report::window::{Section, Window};
-use fret_results::Field;
+use crate::report::{Overview, Section, Window};
 
 /// What is shown of one increment.
 pub struct Moment {
@@ -35,8 +35,8 @@ pub struct Ground<'a> {
 }
 
 /// The largest magnitude.
-pub fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
+pub fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
+    values.into_iter().fold(0.0, |most: f64, value| most.max(value.abs()))
 }
 
 impl<'a> Ground<'a> {
@@ -61,22 +61,19 @@ impl<'a> Ground<'a> {
         for position in view.telling(most) {
             let pressure = fields.field("pressure", position)?;
             ground.window.widen(&pressure);
-            ground.most[0] = ground.most[0].max(largest(&pressure.values));
+            ground.most[0] = ground.most[0].max(largest(&pressure));
             if has_shear {
-                ground.most[1] = ground.most[1].max(largest(&ground.magnitude(position)?.values));
+                ground.most[1] = ground.most[1].max(largest(&ground.magnitude(position)?));
             }
         }
         Ok(ground)
     }
 
     /// Magnitude of the shear.
-    fn magnitude(&self, position: usize) -> Result<Field, Failure> {
+    fn magnitude(&self, position: usize) -> Result<Array2<f64>, Failure> {
         let fields = &self.view.results.fields;
-        let (mut x, y) = (fields.field("shear_x", position)?, fields.field("shear_y", position)?);
-        for (x, y) in x.values.iter_mut().zip(&y.values) {
-            *x = x.hypot(*y);
-        }
-        Ok(x)
+        let (x, y) = (fields.field("shear_x", position)?, fields.field("shear_y", position)?);
+        Ok(Zip::from(&x).and(&y).map_collect(|x, y| x.hypot(*y)))
     }
 
     /// The increment at a position among the kept ones.
@@ -88,14 +85,12 @@ impl<'a> Ground<'a> {
         let mut images = Vec::new();
         if self.has_zones {
             let zone = fields.field("zone", position)?;
-            images.push(self.window.part().zones(|[i, j]| zone.at(i, j))?);
+            images.push(self.window.part().zones(|cell| zone[cell])?);
         }
         images.push(self.image(&field, &field, self.most[0])?);
         let mut shear = Vec::new();
         if self.has_shear {
-            let parts = [fields.field("shear_x", position)?, fields.field("shear_y", position)?];
-            let [x, y] = parts.map(|part| self.section.values(&part));
-            shear = x.iter().zip(&y).map(|(x, y)| self.direction[0] * x + self.direction[1] * y).collect();
+            shear = self.section.shear(fields, position, self.direction)?;
             images.push(self.image(&self.magnitude(position)?, &field, self.most[1])?);
         }
         let bound =
@@ -109,8 +104,8 @@ impl<'a> Ground<'a> {
     }
 
     /// A field in false colours where there is contact.
-    fn image(&self, field: &Field, pressure: &Field, most: f64) -> Result<String, Failure> {
-        let value = |[i, j]: [usize; 2]| if pressure.at(i, j) > 0.0 { field.at(i, j) } else { f64::NAN };
+    fn image(&self, field: &Array2<f64>, pressure: &Array2<f64>, most: f64) -> Result<String, Failure> {
+        let value = |cell: [usize; 2]| if pressure[cell] > 0.0 { field[cell] } else { f64::NAN };
         self.window.part().values([0.0, most], value)
     }
 }

@@ -7,13 +7,11 @@ use fret_core::model::{
     EvolutionLaw, HeightsSummary, MapSummary, Profile, WearLaw, WearRule,
 };
 use fret_core::plan::Coupling;
-use maud::{Markup, html};
+use maud::{Markup, Render, html};
 use serde_json::{Value, json};
 
 use crate::figures::counted;
-use crate::report::Measured;
-use crate::report::html::{chapter, given, pairs};
-use crate::report::overview::Overview;
+use crate::report::{Measured, Overview, chapter, given, pairs};
 
 /// Coatings that are listed one by one.
 const MOST_COATINGS: usize = 4;
@@ -21,47 +19,41 @@ const MOST_COATINGS: usize = 4;
 /// The case as it was understood.
 pub fn question(view: &Overview<'_>) -> Markup {
     let (plan, case) = (view.results.plan(), view.results.case());
-    let mut rows = vec![
-        ("upper body".to_owned(), body(view, case.bodies.upper())),
-        ("lower body".to_owned(), body(view, case.bodies.lower())),
-        ("profile".to_owned(), words(&profile(view, &case.profile))),
-        ("friction".to_owned(), friction(view, &case.friction)),
-    ];
+    let mut rows: Vec<(String, Markup)> = Vec::new();
+    let mut row = |name: &str, told: &dyn Render| rows.push((name.to_owned(), html! { (told) }));
+    row("upper body", &body(view, case.bodies.upper()));
+    row("lower body", &body(view, case.bodies.lower()));
+    row("profile", &profile(view, &case.profile));
+    row("friction", &friction(view, &case.friction));
     let [nx, ny] = view.results.fields.cells();
     let [dx, dy] = view.results.fields.spacing().map(|side| view.number(side, "length"));
     let repeats = match case.periodic.in_words() {
         "" => String::new(),
         words => format!(", {words}"),
     };
-    rows.push(match view.dimension() {
-        Dimension::Plane => ("grid".to_owned(), words(&format!("{nx} × {ny} cells of {dx} × {dy}{repeats}"))),
-        Dimension::Line => {
-            ("line contact".to_owned(), words(&format!("{nx} cells of {dx}; loads per unit length")))
-        }
-    });
+    match view.dimension() {
+        Dimension::Plane => row("grid", &format!("{nx} × {ny} cells of {dx} × {dy}{repeats}")),
+        Dimension::Line => row("line contact", &format!("{nx} cells of {dx}; loads per unit length")),
+    }
     if let Some(datum) = plan.datum {
         let depth = view.number(datum, "length");
-        rows.push((
-            "approach and displacement".to_owned(),
-            words(&format!("relative to {depth} below the load")),
-        ));
+        row("approach and displacement", &format!("relative to {depth} below the load"));
     }
     let solved = match plan.coupling {
         Coupling::Frictionless => "pressure alone: there is no friction",
         Coupling::Uncoupled => "pressure, then shear: elastically similar bodies",
         Coupling::Coupled => "pressure and shear together: normal-tangential coupling",
     };
-    rows.push(("solved".to_owned(), words(solved)));
+    row("solved", &solved);
     if let Some(hardness) = case.hardness {
         let hardness = view.given(hardness, "pressure");
-        let what = format!("{hardness}; the softer surface is elastic and perfectly plastic");
-        rows.push(("hardness".to_owned(), words(&what)));
+        row("hardness", &format!("{hardness}; the softer surface is elastic and perfectly plastic"));
     }
     if let Some(rule) = &case.wear {
-        rows.push(("wear".to_owned(), words(&wear(view, rule))));
+        row("wear", &wear(view, rule));
     }
     for (number, stage) in case.stages.iter().enumerate() {
-        rows.push((format!("stage {}", number + 1), self::stage(view, stage)));
+        row(&format!("stage {}", number + 1), &self::stage(view, stage));
     }
     let units = match view.results.units() {
         Some(units) => {
@@ -70,15 +62,11 @@ pub fn question(view: &Overview<'_>) -> Markup {
         None => "The case declares no units: all numbers are in its own, which may be any consistent set."
             .to_owned(),
     };
-    chapter("The case", &html! { (pairs(&rows)) p class="small" { (units) } })
-}
-
-fn words(text: &str) -> Markup {
-    html! { (text) }
+    chapter("The case", &html! { (pairs(rows)) p class="small" { (units) } })
 }
 
 fn body(view: &Overview<'_>, body: &Body) -> Markup {
-    let Body::Elastic(half_space) = body else { return words("rigid") };
+    let Body::Elastic(half_space) = body else { return html! { "rigid" } };
     let material = |material: &ElasticMaterial| {
         html! {
             i { "E" } " " (view.given(material.young(), "pressure")) ", " i { "ν" } " " (given(material.poisson()))

@@ -4,13 +4,9 @@ use maud::{Markup, html};
 
 use super::loading::{loop_curves, stick_fraction};
 use super::loop_table::loop_table;
-use crate::drawing::chart::{Chart, Curve, Stroke, joined};
-use crate::drawing::scale::ends;
+use crate::drawing::{Chart, Curve, ends, joined};
 use crate::figures::capitalised;
-use crate::report::Measured;
-use crate::report::html::{chapter, side_by_side, table};
-use crate::report::overview::Overview;
-use crate::report::rolled::Rolled;
+use crate::report::{Measured, Overview, Rolled, chapter, side_by_side, table};
 
 /// What changes by less than this fraction of itself along the way does not change.
 const SEEN: f64 = 1e-6;
@@ -26,17 +22,13 @@ pub fn rolling(view: &Overview<'_>) -> Markup {
 
 /// The numbers at the ends of the stages that roll.
 fn at_ends(view: &Overview<'_>, rolled: &Rolled) -> Markup {
-    let history = &view.results.table;
-    let names: Vec<String> = rolled.columns.iter().map(|column| column.in_words()).collect();
-    let head: Vec<&str> = std::iter::once("at the end of").chain(names.iter().map(String::as_str)).collect();
+    let names = rolled.columns.iter().map(|column| column.in_words());
+    let head: Vec<String> = ["at the end of".to_owned()].into_iter().chain(names).collect();
     let ends = view.spans.iter().enumerate().filter(|(_, [_, end])| rolled.rolls[end - 1]);
     let rows: Vec<Vec<String>> = ends
         .map(|(stage, [_, end])| {
-            let numbers = rolled
-                .columns
-                .iter()
-                .map(|column| view.number(history.at(column.name, end - 1), column.unit));
-            std::iter::once(view.stage_name(stage)).chain(numbers).collect()
+            let numbers = rolled.columns.iter().map(|column| view.told(column.name, end - 1));
+            [view.stage_name(stage)].into_iter().chain(numbers).collect()
         })
         .collect();
     table(&head, &rows)
@@ -59,7 +51,7 @@ fn tractive_curve(view: &Overview<'_>, rolled: &Rolled) -> Vec<Markup> {
     let creepage = |row: usize| cosine * history.at("creepage_x", row) + sine * history.at("creepage_y", row);
     let chart = |what: &str, values: &[f64], caption: &str| {
         let points: Vec<[f64; 2]> = rows.iter().map(|row| [creepage(*row), values[*row]]).collect();
-        let curves = vec![Curve::plain(points.clone()), Curve::plain(points).drawn(Stroke::Dots)];
+        let curves = Curve::plain(points).dotted();
         let axes = [view.label("creepage", ""), view.label(what, "force")];
         Chart::new(&format!("{what} over creepage"), axes, curves).figure(caption)
     };
@@ -96,9 +88,9 @@ fn over_distance(view: &Overview<'_>, rolled: &Rolled) -> Vec<Markup> {
         figures.push(chart.figure(caption));
     }
     let cycles = view.cycles();
-    let that_roll = cycles.iter().rev().find(|cycle| (cycle.span[0]..cycle.span[1]).any(passing));
+    let that_roll = cycles.iter().rev().find(|[first, after]| (*first..*after).any(passing));
     let ([from, to], called) = match that_roll {
-        Some(cycle) => (cycle.span, " The last cycle that rolls."),
+        Some(cycle) => (*cycle, " The last cycle that rolls."),
         None => ([0, history.rows()], ""),
     };
     for column in &rolled.columns {

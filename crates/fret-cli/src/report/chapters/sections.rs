@@ -3,12 +3,10 @@
 use fret_core::model::{Control, Dimension};
 use maud::{Markup, html};
 
-use crate::drawing::chart::{Chart, Curve, Stroke};
+use crate::drawing::{Chart, Curve, Stroke};
 use crate::failure::Failure;
-use crate::report::Measured;
-use crate::report::html::{chapter, side_by_side};
-use crate::report::overview::Overview;
-use crate::report::window::Section;
+use crate::figures::capitalised;
+use crate::report::{Measured, Overview, Section, chapter, side_by_side};
 
 /// Curves of a section, at most.
 const MOST_SECTIONS: usize = 4;
@@ -116,7 +114,7 @@ fn section_curves(
             curves.push(Curve { name: None, ..Curve::dashed(points.collect(), "", colour) });
         }
         let stroke = if exact.is_some() { Stroke::Dots } else { Stroke::Line };
-        let points = (first..=last).map(|k| [section.along[k], values[k]]).collect();
+        let points = section.points([first, last], |k| values[k]);
         curves.push(Curve::line(points, &view.called(step), colour).drawn(stroke));
     }
     curves
@@ -155,12 +153,8 @@ fn pressure_section(view: &Overview<'_>, section: &Section) -> Result<Markup, Fa
 
 fn shear_section(view: &Overview<'_>, section: &Section) -> Result<Markup, Failure> {
     let fields = &view.results.fields;
-    let ([cosine, sine], name) = shear_direction(view, section);
-    let chosen = distinct(pushed_most(view), |position| {
-        let x = section.values(&fields.field("shear_x", position)?);
-        let y = section.values(&fields.field("shear_y", position)?);
-        Ok(x.iter().zip(&y).map(|(x, y)| cosine * x + sine * y).collect())
-    })?;
+    let (direction, name) = shear_direction(view, section);
+    let chosen = distinct(pushed_most(view), |position| section.shear(fields, position, direction))?;
     let form = |step: usize| {
         let after = view.tangential_form.as_ref().filter(|_| !view.twists)?.after(step)?.clone();
         Some(Box::new(move |x: f64, y: f64| after.shear(x, y)) as Box<dyn Fn(f64, f64) -> f64>)
@@ -169,7 +163,7 @@ fn shear_section(view: &Overview<'_>, section: &Section) -> Result<Markup, Failu
     let has_form = curves.iter().any(|curve| curve.stroke == Stroke::Dashed);
     let axes = [view.label(section.name(), "length"), view.label("shear", "pressure")];
     let chart = Chart::new("shear along a line through the contact", axes, curves);
-    let first = format!("{}{}", name[..1].to_uppercase(), &name[1..]);
+    let first = capitalised(name);
     let mut caption = if has_form {
         let works = match view.dimension() {
             Dimension::Plane => "Cattaneo, Mindlin and Deresiewicz",
@@ -189,7 +183,7 @@ fn shear_section(view: &Overview<'_>, section: &Section) -> Result<Markup, Failu
 /// then the last, then the others evenly.
 fn pushed_most(view: &Overview<'_>) -> Vec<usize> {
     let steps = &view.results.fields.steps;
-    let [first, end] = view.cycles().last().map_or([0, usize::MAX], |cycle| cycle.span);
+    let [first, end] = view.cycles().last().copied().unwrap_or([0, usize::MAX]);
     let mut inside: Vec<usize> =
         (0..steps.len()).filter(|&position| (first..end).contains(&steps[position])).collect();
     if inside.is_empty() {

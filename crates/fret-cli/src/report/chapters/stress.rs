@@ -4,17 +4,14 @@ use std::fs;
 use std::path::Path;
 
 use base64::prelude::{BASE64_STANDARD, Engine};
+use fret_core::units::Units;
 use maud::{Markup, html};
 
 use crate::commands::stress_kinds::{kind_of_stress, stress_called};
 use crate::commands::stress_record::{FilmRecord, LargestRecord, ParameterRecord, StressRecord};
-use crate::drawing::chart::{Chart, Curve};
-use crate::drawing::figure_of;
+use crate::drawing::{Chart, Curve, figure_of};
 use crate::figures::{bounded, capitalised};
-use crate::report::Measured;
-use crate::report::html::{chapter, grid, side_by_side};
-use crate::report::overview::Overview;
-use crate::report::read_answer;
+use crate::report::{Measured, Overview, chapter, grid, read_answer, side_by_side};
 use crate::table::{Cell, Columns};
 
 /// Pictures that are shown, at most.
@@ -63,26 +60,21 @@ pub fn stress(view: &Overview<'_>) -> Markup {
 
 /// Von Mises stress over the depth, largest at each, in the increment where it is largest of all.
 fn over_depth(view: &Overview<'_>, folder: &Path, record: &StressRecord) -> Option<Markup> {
-    let worst = worst(record)?;
+    let worst = worst(record)?.to_string();
     let text = fs::read_to_string(folder.join("depths.csv")).ok()?;
-    let mut lines = text.lines();
-    let place =
-        |name: &str, head: &str| head.split(',').position(|column| column.split(" [").next() == Some(name));
+    let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let head = lines.next()?;
-    let [increment, depth, mises, tension] =
-        ["increment", "depth", "von_mises", "tension"].map(|name| place(name, head));
-    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
-    let of = |column: usize| -> Vec<[f64; 2]> {
-        let mine = rows.iter().filter(|row| {
-            increment.and_then(|at| row.get(at)).is_some_and(|found| *found == worst.to_string())
-        });
+    let place = |name: &str| head.iter().position(|column| Units::name_of(column) == name);
+    let (increment, depth) = (place("increment")?, place("depth")?);
+    let rows: Vec<Vec<&str>> = lines.filter(|row| row.get(increment) == Some(&worst.as_str())).collect();
+    let of = |column: usize| {
         let number =
-            |row: &Vec<&str>, at: usize| row.get(at).and_then(|word| word.parse().ok()).unwrap_or(f64::NAN);
-        mine.map(|row| [depth.map_or(f64::NAN, |at| number(row, at)), number(row, column)]).collect()
+            |row: &[&str], at: usize| row.get(at).and_then(|word| word.parse().ok()).unwrap_or(f64::NAN);
+        rows.iter().map(|row| [number(row, depth), number(row, column)]).collect()
     };
     let curves = vec![
-        Curve::line(of(mises?), "von Mises", 0),
-        Curve::line(of(tension?), "largest principal stress", 1),
+        Curve::line(of(place("von_mises")?), "von Mises", 0),
+        Curve::line(of(place("tension")?), "largest principal stress", 1),
     ];
     let axes = [view.label("depth", "length"), view.label("stress", "pressure")];
     let chart = Chart::new("maximum stress over the depth", axes, curves);

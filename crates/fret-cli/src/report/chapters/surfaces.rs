@@ -1,11 +1,10 @@
 //! The surfaces over the section as they move: undeformed shapes and what is worn off them, the upper one at its shift.
 
 use fret_core::model::{Profile, Shape};
-use fret_results::Field;
+use ndarray::Array2;
 
 use crate::failure::Failure;
-use crate::report::overview::Overview;
-use crate::report::window::Section;
+use crate::report::{Overview, Section};
 
 /// Fields of the wear depth of the lower and of the upper body.
 pub const OWN_DEPTHS: [&str; 2] = ["lower_worn_depth", "upper_worn_depth"];
@@ -60,7 +59,7 @@ pub fn along(view: &Overview<'_>, section: &Section, position: usize) -> Result<
 }
 
 /// Value of a field at a place between its cell centres, linear along each axis; zero outside of them.
-fn between(field: &Field, axes: [&[f64]; 2], place: [f64; 2]) -> f64 {
+fn between(field: &Array2<f64>, axes: [&[f64]; 2], place: [f64; 2]) -> f64 {
     let beside = [0, 1].map(|axis| {
         let centres = axes[axis];
         if centres.len() == 1 {
@@ -74,7 +73,7 @@ fn between(field: &Field, axes: [&[f64]; 2], place: [f64; 2]) -> f64 {
         Some((before, next, (place[axis] - centres[before]) / (centres[next] - centres[before])))
     });
     let [Some((left, right, x)), Some((low, high, y))] = beside else { return 0.0 };
-    let across = |j: usize| (1.0 - x) * field.at(left, j) + x * field.at(right, j);
+    let across = |j: usize| (1.0 - x) * field[[left, j]] + x * field[[right, j]];
     (1.0 - y) * across(low) + y * across(high)
 }
 
@@ -85,8 +84,7 @@ mod tests {
     #[test]
     fn a_plane_is_itself_between_the_cells_and_nothing_beyond() {
         let axes: [&[f64]; 2] = [&[0.0, 2.0, 4.0], &[1.0, 2.0]];
-        let values = axes[0].iter().flat_map(|x| axes[1].iter().map(move |y| 3.0 * x - y)).collect();
-        let field = Field { cells: [3, 2], values };
+        let field = Array2::from_shape_fn((3, 2), |(i, j)| 3.0 * axes[0][i] - axes[1][j]);
         for [x, y] in [[0.5, 1.25], [3.0, 2.0], [4.0, 1.0]] {
             assert!((between(&field, axes, [x, y]) - (3.0 * x - y)).abs() < 1e-12);
         }

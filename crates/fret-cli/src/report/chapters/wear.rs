@@ -2,16 +2,11 @@
 
 use maud::{Markup, html};
 
-use crate::drawing::chart::{Chart, Curve};
-use crate::drawing::figure_of;
-use crate::drawing::map::Map;
+use crate::drawing::{Chart, Curve, Map, figure_of};
 use crate::failure::Failure;
-use crate::report::Measured;
 use crate::report::chapters::sections::seen;
 use crate::report::chapters::surfaces::OWN_DEPTHS;
-use crate::report::html::{chapter, pairs, side_by_side};
-use crate::report::overview::Overview;
-use crate::report::window::{Section, Window};
+use crate::report::{Measured, Overview, Section, Window, chapter, pairs, side_by_side};
 use crate::summary::volumes_by_layer;
 
 /// Sections, at most.
@@ -53,9 +48,8 @@ pub fn wear(view: &Overview<'_>) -> Result<Markup, Failure> {
     let worn = view.results.record.end.as_ref().and_then(|end| end.worn_by_layer.as_ref());
     let lost =
         worn.map_or_else(Vec::new, |worn| volumes_by_layer(worn, |lost| view.number(lost, "length^3")));
-    let lost: Vec<(String, Markup)> = lost.into_iter().map(|(name, lost)| (name, html! { (lost) })).collect();
     let heading = if is_own { "Wear scars" } else { "Wear scar" };
-    Ok(chapter(heading, &html! { (side_by_side(&figures)) @if !lost.is_empty() { (pairs(&lost)) } }))
+    Ok(chapter(heading, &html! { (side_by_side(&figures)) @if !lost.is_empty() { (pairs(lost)) } }))
 }
 
 /// Sections of a scar through the run, and its map at the end.
@@ -67,31 +61,28 @@ fn scar_figures(
 ) -> Result<[Markup; 2], Failure> {
     let fields = &view.results.fields;
     let depth = fields.field(scar.field, last)?;
-    let most = depth.values.iter().copied().fold(0.0, f64::max);
+    let most = depth.iter().copied().fold(0.0, f64::max);
     let mut window = Window::new(fields.cells());
     window.widen(&depth);
     let part = window.part();
-    let value = |[i, j]: [usize; 2]| if depth.at(i, j) > 0.0 { depth.at(i, j) } else { f64::NAN };
+    let value = |cell: [usize; 2]| if depth[cell] > 0.0 { depth[cell] } else { f64::NAN };
     let image = part.values([0.0, most], value)?;
     let what = format!("wear depth of {}", scar.of);
+    let axes = ["x", "y"].map(|name| view.label(name, "length"));
     let map = Map {
         bar: Some((view.label("wear depth", "length"), [0.0, most])),
-        ..Map::of_surface(&what, |name| view.label(name, "length"), part.edges_in(fields), image)
+        ..Map::of_surface(&what, axes, part.edges_in(fields), image)
     };
     let mut profiles = Vec::new();
     for position in scars(view) {
         profiles.push((fields.steps[position], section.values(&fields.field(scar.field, position)?)));
     }
     let values: Vec<&[f64]> = profiles.iter().map(|(_, values)| values.as_slice()).collect();
-    let [low, high] = seen(&section.along, &values);
-    let curves = profiles
-        .iter()
-        .enumerate()
-        .map(|(colour, (increment, values))| {
-            let points = (low..=high).map(|k| [section.along[k], values[k]]).collect();
-            Curve::line(points, &view.after_cycle(*increment), colour)
-        })
-        .collect();
+    let seen = seen(&section.along, &values);
+    let curve = |(colour, (increment, values)): (usize, &(usize, Vec<f64>))| {
+        Curve::line(section.points(seen, |k| values[k]), &view.after_cycle(*increment), colour)
+    };
+    let curves = profiles.iter().enumerate().map(curve).collect();
     let axes = [view.label(section.name(), "length"), view.label("wear depth", "length")];
     Ok([
         Chart::new(&format!("{what} along a line through the contact"), axes, curves)
@@ -108,9 +99,9 @@ fn debris(view: &Overview<'_>, section: &Section, last: usize) -> Result<Option<
     }
     let worn = section.values(&fields.field("worn_depth", last)?);
     let debris = section.values(&fields.field("debris", last)?);
-    let [low, high] = seen(&section.along, &[&worn, &debris]);
+    let seen = seen(&section.along, &[&worn, &debris]);
     let curve = |value: &dyn Fn(usize) -> f64, name: &str, colour: usize| {
-        Curve::line((low..=high).map(|k| [section.along[k], value(k)]).collect(), name, colour)
+        Curve::line(section.points(seen, value), name, colour)
     };
     let curves = vec![
         curve(&|k| worn[k], "wear depth", 0),

@@ -4,10 +4,7 @@ use fret_core::model::Dimension;
 use maud::{Markup, html};
 
 use crate::failure::Failure;
-use crate::report::Measured;
-use crate::report::html::chapter;
-use crate::report::overview::Overview;
-use crate::report::window::Window;
+use crate::report::{Measured, Overview, Window, chapter};
 
 /// Maps, at most.
 const MOST_MAPS: usize = 18;
@@ -36,7 +33,7 @@ pub fn zones(view: &Overview<'_>) -> Result<Markup, Failure> {
     };
     let mut drawn = Vec::new();
     for (&position, field) in chosen.iter().zip(&maps) {
-        drawn.push((view.called(fields.steps[position]), part.zones(|[i, j]| field.at(i, j))?));
+        drawn.push((view.called(fields.steps[position]), part.zones(|cell| field[cell])?));
     }
     let body = html! {
         p { "What each cell did in the increment: stage, number in it." }

@@ -3,10 +3,9 @@
 use maud::{Markup, html};
 
 use super::view::{View, spoken};
-use crate::drawing::chart::{Chart, Curve, Stroke};
-use crate::drawing::scale::ends;
+use crate::drawing::{Chart, Curve, ends};
 use crate::figures::capitalised;
-use crate::report::html::{chapter, side_by_side};
+use crate::report::{chapter, side_by_side};
 use crate::sweep::columns::SummaryColumn;
 
 /// Numbers that are drawn where they vary, the most asked first.
@@ -76,9 +75,7 @@ fn drawn(view: &View, column: &SummaryColumn, across: usize, others: &[usize]) -
         let mut points: Vec<[f64; 2]> = points.into_iter().map(at).collect();
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let name = Some(name).filter(|name| !name.is_empty());
-        let line = Curve { colour: place % COLOURS, ..Curve::plain(points) };
-        curves.push(Curve { name, ..line.clone() });
-        curves.push(line.drawn(Stroke::Dots));
+        curves.extend(Curve { name, colour: place % COLOURS, ..Curve::plain(points) }.dotted());
     }
     let [low, high] = ends(numbers.iter().copied());
     let chart = Chart {

@@ -4,10 +4,7 @@ use maud::{Markup, html};
 
 use super::points::MOST_LOOPS;
 use super::view::View;
-use crate::drawing::Drawing;
-use crate::drawing::figure_of;
-use crate::drawing::frame::{Frame, room_for};
-use crate::drawing::scale::{Axis, ends};
+use crate::drawing::{Axis, Drawing, Frame, ends, figure_of, room_for};
 
 const WIDTH: f64 = 480.0;
 const HEIGHT: f64 = 340.0;
@@ -16,16 +13,9 @@ const WIDE: f64 = 30.0;
 /// Maps of more combinations of the other keys are not drawn.
 const MOST_MAPS: usize = 9;
 
-/// Sliding conditions from less to more slip: their words in files, and for a person.
-const CONDITIONS: [[&str; 2]; 7] = [
-    ["apart", "apart"],
-    ["frictionless", "frictionless"],
-    ["full_stick", "full stick"],
-    ["partial_slip", "partial slip"],
-    ["mixed", "mixed"],
-    ["gross_slip", "gross slip"],
-    ["unsolved", "not solved"],
-];
+/// Sliding conditions from less to more slip, by their words in files.
+const CONDITIONS: [&str; 7] =
+    ["apart", "frictionless", "full_stick", "partial_slip", "mixed", "gross_slip", "unsolved"];
 
 /// The maps: one for every combination of the keys that are neither of both axes; nothing of a sweep along less than two keys.
 pub fn maps(view: &View) -> Option<Markup> {
@@ -104,16 +94,16 @@ fn mark(condition: &str, [x, y]: [f64; 2]) -> Markup {
     html! { path class=(class) d=(path) {} }
 }
 
-fn in_words(condition: &str) -> &str {
-    CONDITIONS.iter().find(|[word, _]| *word == condition).map_or(condition, |[_, words]| words)
+fn in_words(condition: &str) -> String {
+    if condition == "unsolved" { "not solved".to_owned() } else { condition.replace('_', " ") }
 }
 
 fn legend(view: &View) -> Markup {
     let has = |condition: &str| (0..view.record.points.len()).any(|point| view.condition(point) == condition);
     html! {
         ul class="legend" {
-            @for [condition, words] in CONDITIONS.into_iter().filter(|[condition, _]| has(condition)) {
-                li { svg viewBox="0 0 16 16" width="16" height="16" aria-hidden="true" { (mark(condition, [8.0, 8.0])) } (words) }
+            @for condition in CONDITIONS.into_iter().filter(|condition| has(condition)) {
+                li { svg viewBox="0 0 16 16" width="16" height="16" aria-hidden="true" { (mark(condition, [8.0, 8.0])) } (in_words(condition)) }
             }
         }
     }

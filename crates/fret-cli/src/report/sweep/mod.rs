@@ -16,6 +16,7 @@ use maud::{Markup, html};
 use super::whole_page;
 use crate::failure::Failure;
 use crate::figures::counted;
+use crate::sweep::Counts;
 use view::View;
 pub use view::called;
 
@@ -36,17 +37,11 @@ pub fn page(folder: &Path) -> Result<(String, usize), Failure> {
 }
 
 fn head(view: &View) -> Markup {
-    let count =
-        |status: &str| view.answers.iter().flatten().filter(|answer| answer.status() == status).count();
-    let (solved, refused) = (count("solved"), count("refused"));
-    let failed = view.answers.iter().flatten().count() - solved - refused;
+    let Counts { solved, refused, failed } = Counts::of(&view.answers);
     let open = view.answers.iter().filter(|answer| answer.is_none()).count();
     let counts = [(solved, "solved"), (refused, "refused"), (failed, "failed"), (open, "not solved yet")];
-    let told: Vec<String> = counts
-        .iter()
-        .filter(|(count, _)| *count > 0)
-        .map(|(count, word)| format!("{count} {word}"))
-        .collect();
+    let told = counts.iter().filter(|(count, _)| *count > 0);
+    let told: Vec<String> = told.map(|(count, word)| format!("{count} {word}")).collect();
     let points = counted(view.record.points.len(), "point");
     html! {
         header {

@@ -3,9 +3,8 @@
 use maud::{Markup, html};
 
 use super::view::{View, called, spoken};
-use crate::drawing::chart::{Chart, Curve};
-use crate::report::Measured;
-use crate::report::html::{chapter, pairs};
+use crate::drawing::{Chart, Curve};
+use crate::report::{Measured, chapter, pairs};
 use crate::sweep::Path;
 
 /// Points that stand in the page each with its loop, at the most: links lead to these.
@@ -43,12 +42,8 @@ fn one(view: &View, point: usize) -> Markup {
     let keys: Vec<usize> = (0..view.record.keys.len()).collect();
     let answer = view.answers[point].as_ref();
     let numbers = answer.and_then(|answer| answer.numbers.as_ref());
-    let told: Vec<(String, Markup)> = view
-        .columns
-        .iter()
-        .filter(|column| !column.values[point].is_null())
-        .map(|column| (spoken(&column.name), html! { (view.told(column, point)) }))
-        .collect();
+    let known = view.columns.iter().filter(|column| !column.values[point].is_null());
+    let told = known.map(|column| (spoken(&column.name), view.told(column, point)));
     html! {
         div class="point" id=(format!("point-{point}")) {
             h3 { "Point " (point) }
@@ -60,7 +55,7 @@ fn one(view: &View, point: usize) -> Markup {
             }
             @if let Some(numbers) = numbers {
                 (loop_of(view, &numbers.path))
-                (pairs(&told))
+                (pairs(told))
             }
         }
     }

@@ -7,11 +7,9 @@ use maud::{Markup, html};
 use serde_json::{Value, json};
 
 use super::view::{View, called, spoken};
-use crate::drawing::chart::{Chart, Curve, Stroke};
-use crate::drawing::scale::Label;
+use crate::drawing::{Chart, Curve, Label, Stroke};
 use crate::figures::{bounded, figure};
-use crate::report::Measured;
-use crate::report::html::{chapter, grid, side_by_side};
+use crate::report::{Measured, chapter, grid, side_by_side};
 use crate::sweep::{Quantities, QuantityRecord, SpreadRecord};
 
 /// Numbers that vary by less, relative, do not.

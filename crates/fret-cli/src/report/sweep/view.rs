@@ -8,11 +8,9 @@ use fret_core::units::Units;
 use serde_json::Value;
 
 use crate::commands::stress_kinds::stress_called;
-use crate::drawing::scale::Label;
+use crate::drawing::Label;
 use crate::failure::Failure;
-use crate::report::html::{given, number};
-use crate::report::measured::Measured;
-use crate::report::written::read_answer;
+use crate::report::{Measured, given, number, read_answer};
 use crate::sweep::columns::{SummaryColumn, columns};
 use crate::sweep::key::words_of;
 use crate::sweep::kinds::kind_of;
@@ -46,7 +44,7 @@ impl View {
         let fits = |point: &PointOfSweep| point.values.len() == record.keys.len();
         if record.drawn.len() > record.keys.len() || !record.points.iter().all(fits) {
             let what = format!("{}: not what a sweep writes", folder.join(RECORD).display());
-            return Err(Failure::Call(what, "run fret sweep again".to_owned()));
+            return Err(Failure::call(what, "run fret sweep again"));
         }
         let answer = |file: &String| {
             let text = fs::read(folder.join(POINTS).join(file)).ok()?;
@@ -118,7 +116,7 @@ impl View {
         if !self.is_numeric(key) {
             return Label::plain(&format!("{name}, which of its values"));
         }
-        Label { name, unit: self.unit_of_key(&self.record.keys[key]) }
+        Label::with(&name, self.unit_of_key(&self.record.keys[key]))
     }
 
     fn unit_of_key(&self, key: &str) -> Option<String> {
@@ -131,7 +129,7 @@ impl View {
     /// The name of a column as an axis.
     pub fn label_of(&self, column: &SummaryColumn) -> Label {
         // that it is of the last cycle says the caption
-        Label { name: spoken(&column.name).replace(OF_CYCLE, ""), unit: self.unit(&column.kind) }
+        self.label(&spoken(&column.name).replace(OF_CYCLE, ""), &column.kind)
     }
 
     /// A value of a key in words.
