@@ -43,6 +43,7 @@ mod loads_of_cycles;
 mod loop_sensitivities;
 mod mean_gap;
 mod misleading;
+mod moving_friction;
 mod moving_surfaces;
 mod mutilated_cases;
 mod normal_counts;

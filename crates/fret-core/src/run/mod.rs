@@ -29,6 +29,7 @@ mod stiffest_wave;
 mod strides;
 mod surfaces;
 mod thinning;
+mod upper_frame;
 mod wear;
 
 pub use checkpoint::{Checkpoint, CheckpointError, Waypoint};

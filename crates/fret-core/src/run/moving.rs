@@ -52,8 +52,8 @@ pub struct Moving {
     upper: Option<UpperBody>,
     /// A friction law whose maps are the upper body's.
     friction: Option<CoulombFriction>,
-    /// Whether a friction law moves.
-    moves_friction: bool,
+    /// Whether friction maps are the upper body's.
+    friction_of_upper: bool,
     /// Where the gap that the solver has is that of; `None`: nowhere any more.
     at: Option<Place>,
 }
@@ -138,7 +138,7 @@ impl Moving {
             profile: plan.case.profile.clone(),
             upper: UpperBody::of(plan, bodies.upper())?,
             friction: None,
-            moves_friction: plan.case.kinematics.friction_of_upper,
+            friction_of_upper: plan.case.kinematics.friction_of_upper,
             at: None,
         })
     }
@@ -154,14 +154,15 @@ impl Moving {
 
     /// Another friction law from now on, of the upper body where maps move with it.
     pub fn set_friction(&mut self, friction: &CoulombFriction) {
-        let moves = self.moves_friction && friction.is_map();
+        let moves = self.friction_of_upper && friction.is_map();
         self.friction = moves.then(|| friction.clone());
         self.at = None;
     }
 
-    /// Whether friction is another one from increment to increment.
-    pub fn moves_friction(&self) -> bool {
-        self.friction.is_some()
+    /// The friction law over the grid where the upper body, whose maps it has, lies at a place; `None` where it has none.
+    fn friction_at(&self, place: Place) -> Option<CoulombFriction> {
+        let over = self.motion.over_grid(place);
+        self.friction.as_ref().map(|law| law.with_maps(|map| over.of(map, self.outside())))
     }
 
     fn outside(&self) -> Outside {
@@ -237,11 +238,6 @@ impl<'a> Stepper<'a> {
     #[cfg(test)]
     pub fn still(solver: ContactSolver<'a>) -> Self {
         Self { solver, moving: None, rolling: None }
-    }
-
-    /// Whether friction is another one from increment to increment.
-    pub fn moves_friction(&self) -> bool {
-        self.moving.as_ref().is_some_and(Moving::moves_friction)
     }
 
     /// Another friction law from the next increment on, with the maps of a body where that lies without a shift.
@@ -332,7 +328,7 @@ impl<'a> Stepper<'a> {
         let (to, mut twist, is_known) = Moving::prescribed(load, state);
         let mut place = moving.motion.place(to, twist);
         let memory = (!is_known).then(|| solver.memory().clone());
-        let gap_before = moving.gap_at(state, from);
+        let (gap_before, law_before) = (moving.gap_at(state, from), moving.friction_at(from));
         let (mut before, mut work) = (None, Work::default());
         let (mut round, mut turn) = (1, TurnByMoment::default());
         loop {
@@ -341,13 +337,12 @@ impl<'a> Stepper<'a> {
             let gap = moves.then(|| moving.gap_at(state, place));
             if moving.at != Some(place) {
                 solver.move_gap(gap.as_ref().unwrap_or(&gap_before).clone());
-                if let Some(friction) = &moving.friction {
-                    let outside = moving.outside();
-                    let over = moving.motion.over_grid(place);
-                    solver.set_friction(Cow::Owned(friction.with_maps(|map| over.of(map, outside))));
+                if let Some(law) = moving.friction_at(place) {
+                    solver.set_friction(Cow::Owned(law));
                 }
                 moving.at = Some(place);
             }
+            solver.set_friction_before(law_before.clone().filter(|_| moves));
             let outside = moving.outside();
             let along = moving.upper.as_mut().filter(|_| moves).map(|upper| {
                 let before = before.get_or_insert_with(|| {
