@@ -56,6 +56,7 @@ mod reduced_contact;
 mod refinement;
 mod resumed;
 mod rig;
+mod rolled_maps;
 mod rolling;
 mod rough_cases;
 mod rough_surfaces;

@@ -29,10 +29,19 @@ pub(super) fn kinematics(judge: &mut Judge, concerned: &Concerned<'_>) -> Kinema
     let is_steady = concerned.loading.0.iter().any(|stage| stage.value.controls.are_steady());
     let default = if is_steady { Frame::Contact } else { Frame::Bodies };
     let frame = frame.map_or(default, |given| given.value);
+    let beyond_maps = file.kinematics.as_ref().and_then(|given| given.value.beyond_maps.as_ref());
+    if let Some(given) = beyond_maps.filter(|_| frame == Frame::Bodies) {
+        judge.refuse::<()>(
+            given.span(),
+            "kinematics.beyond_maps with frame = \"bodies\": the grid is fixed to the bodies, and no map leaves it",
+            "leave it out, or frame = \"contact\"",
+        );
+    }
     let kinematics = Kinematics {
         displacement,
         friction_of_upper: moves_with.is_some_and(|given| given.value == Side::Upper),
         frame,
+        beyond_maps: beyond_maps.map(|given| given.value),
     };
     if !kinematics.is_finite() {
         if let Some(given) = moves_with.filter(|_| kinematics.friction_of_upper) {

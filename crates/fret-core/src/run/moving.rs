@@ -60,7 +60,7 @@ pub struct Moving {
 
 /// Twists that were taken for that of a moment in the rounds of an increment, with those that were then found.
 #[derive(Default)]
-struct TurnByMoment {
+pub struct TurnByMoment {
     /// The last twist taken and found [rad], and how far the upper surface lay shifted [cells].
     last: Option<([f64; 2], [f64; 2])>,
 }
@@ -68,7 +68,7 @@ struct TurnByMoment {
 impl TurnByMoment {
     /// The next twist to take, after one was taken and another found: where a line through this round and the one before finds what it takes. A contact
     /// that slides finds half of a turn, say, anew in each round.
-    fn next(&mut self, [taken, found]: [f64; 2], cells: [f64; 2]) -> f64 {
+    pub fn next(&mut self, [taken, found]: [f64; 2], cells: [f64; 2]) -> f64 {
         let last = self.last.replace(([taken, found], cells));
         let Some(([taken_before, found_before], _)) = last.filter(|(_, before)| *before == cells) else {
             return found;
@@ -245,6 +245,9 @@ impl<'a> Stepper<'a> {
         if let Some(moving) = &mut self.moving {
             moving.set_friction(&friction);
         }
+        if let Some(rolling) = &mut self.rolling {
+            rolling.set_friction(&friction);
+        }
         self.solver.set_friction(friction);
     }
 
@@ -296,6 +299,11 @@ impl<'a> Stepper<'a> {
     /// Whether an increment can be solved in parts that end at a load: a grid that goes with a contact moves by whole cells.
     pub fn may_stop_at(&self, state: &ContactState, load: &LoadStep) -> bool {
         self.rolling.as_ref().is_none_or(|rolling| rolling.may_stop_at(state, load))
+    }
+
+    /// A state before an increment on the cells where its places are after it: a grid that goes with a contact leaves them behind.
+    pub fn brought_to<'s>(&self, state: &'s ContactState, after: &ContactState) -> Cow<'s, ContactState> {
+        self.rolling.as_ref().map_or(Cow::Borrowed(state), |rolling| rolling.brought_to(state, after))
     }
 
     /// What the solver remembers.
