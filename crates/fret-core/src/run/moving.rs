@@ -8,6 +8,7 @@ use ndarray::Array2;
 use super::pair_compliance::PairCompliance;
 use super::rolling::Rolling;
 use super::steady::Onward;
+use super::turn_by_moment::TurnByMoment;
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance};
 use crate::fields::Outside;
 use crate::model::{
@@ -22,8 +23,6 @@ use crate::solver::{ContactSolver, Increment, IterationCallback, SolveError, Sol
 const MOST_ROUNDS: usize = 12;
 /// From this round on two places beside each other are taken for one.
 const TAKING_TURNS: usize = 4;
-/// By how much of a change of the twist that is taken the twist found changes, at the most, where the next one is looked for.
-const STEEPEST: f64 = 0.9;
 /// Two places are one where nothing on the grid lies in them farther apart than this, in cells.
 const SAME_PLACE: f64 = 1e-4;
 /// Two places are beside each other where they lie no farther apart than this along the axes, in cells: positions are rounded to a hundredth.
@@ -56,30 +55,6 @@ pub struct Moving {
     friction_of_upper: bool,
     /// Where the gap that the solver has is that of; `None`: nowhere any more.
     at: Option<Place>,
-}
-
-/// Twists that were taken for that of a moment in the rounds of an increment, with those that were then found.
-#[derive(Default)]
-pub struct TurnByMoment {
-    /// The last twist taken and found [rad], and how far the upper surface lay shifted [cells].
-    last: Option<([f64; 2], [f64; 2])>,
-}
-
-impl TurnByMoment {
-    /// The next twist to take, after one was taken and another found: where a line through this round and the one before finds what it takes. A contact
-    /// that slides finds half of a turn, say, anew in each round.
-    pub fn next(&mut self, [taken, found]: [f64; 2], cells: [f64; 2]) -> f64 {
-        let last = self.last.replace(([taken, found], cells));
-        let Some(([taken_before, found_before], _)) = last.filter(|(_, before)| *before == cells) else {
-            return found;
-        };
-        let slope = (found - found_before) / (taken - taken_before);
-        if slope.is_finite() {
-            taken + (found - taken) / (1.0 - slope.clamp(-STEEPEST, STEEPEST))
-        } else {
-            found
-        }
-    }
 }
 
 /// How the upper body alone responds. Bodies that are similar do not couple as a pair; each alone does.

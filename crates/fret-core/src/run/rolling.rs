@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use ndarray::{Array2, Axis};
 
-use super::moving::TurnByMoment;
+use super::turn_by_moment::TurnByMoment;
 use crate::fields::{Outside, carried, carried_by_whole_cells};
 use crate::model::{
     BeyondMaps, ContactState, CoulombFriction, Frame, LoadStep, Profile, SurfaceGrid, Symmetry,
