@@ -35,6 +35,12 @@ What lies beyond the edge of the grid.
 """
 
 
+BeyondMaps: TypeAlias = Literal["edge", "repeats", "mirrors"]
+"""
+What lies beyond the maps of heights and friction, which are as long as the grid, where a contact rolls off them with its grid.
+"""
+
+
 CellsItem: TypeAlias = int
 
 
@@ -291,6 +297,11 @@ class Kinematics(TypedDict):
     How the surfaces move against each other.
     """
 
+    beyond_maps: NotRequired[BeyondMaps]
+    """
+    What lies beyond the maps of heights and friction, which are as long as the grid, where it goes with the contact: what is at their "edge"
+    continues, or the map "repeats", or "mirrors" itself at its edges. Needed where such a map travels through the grid.
+    """
     displacement: NotRequired[Displacement]
     """
     "small": opposite points of the surfaces stay opposite, for a shift that is small against the contact; "finite": profile,
@@ -864,7 +875,8 @@ class Friction(TypedDict):
     """
     moves_with: NotRequired[Side]
     """
-    The body that a map belongs to, with which it moves where `kinematics.displacement = "finite"`. Default: "lower".
+    The body that a map belongs to, and whose places remember what friction that evolves follows: it moves with that where
+    `kinematics.displacement = "finite"`. Default: "lower".
     """
 
 

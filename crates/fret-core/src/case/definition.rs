@@ -198,7 +198,13 @@ impl Case {
     pub(crate) fn way_from_the_edge(&self) -> &'static str {
         let has_map = self.friction.is_map()
             || self.stages.iter().filter_map(|stage| stage.friction.as_ref()).any(CoulombFriction::is_map);
-        if !self.profile.heights.is_empty() {
+        if self.rolls() && self.kinematics.frame == Frame::Contact {
+            if has_map || !self.profile.heights.is_empty() {
+                "it goes along with the contact, and holds twice the cells of an increment open on either side: enlarge grid.size with maps and heights for it, or roll by fewer cells in an increment"
+            } else {
+                "it goes along with the contact, and holds twice the cells of an increment open on either side: enlarge grid.size, or roll by fewer cells in an increment"
+            }
+        } else if !self.profile.heights.is_empty() {
             "the heights end there: grid.beyond = \"no body\" where the body ends there, too; grid.periodic = true lets the surface repeat; or a lower load, heights of a larger area"
         } else if self.periodic.one_axis().is_some() {
             "enlarge grid.size across the axis that repeats; grid.beyond = \"no body\" where a body ends there"
@@ -206,8 +212,6 @@ impl Case {
             "write grid.size = [x, y], larger than what \"auto\" found, which fret plan shows"
         } else if has_map {
             "enlarge grid.size, with a friction map for it"
-        } else if self.rolls() && self.kinematics.frame == Frame::Contact {
-            "it goes along with the contact, and holds twice the cells of an increment open on either side: enlarge grid.size, or roll by fewer cells in an increment"
         } else {
             "enlarge grid.size, or write size = \"auto\"; grid.beyond = \"no body\" where a body ends there"
         }

@@ -8,7 +8,7 @@ use super::side::Side;
 use super::stage_file::{AutoWord, StageFile, WearFile};
 use super::surface_file::{FrictionFile, LENGTH, ProfileFile};
 use crate::document::{At, Range, Table};
-use crate::model::{Beyond, Displacement, Frame, Integration, Periodicity, Scheme};
+use crate::model::{Beyond, BeyondMaps, Displacement, Frame, Integration, Periodicity, Scheme};
 
 /// A fretting contact: bodies, first gap, friction, and a loading history. Any consistent system of units.
 #[derive(Table, JsonSchema)]
@@ -58,6 +58,9 @@ pub(super) struct KinematicsFile {
     /// Where the grid is while the contact rolls: fixed to the "bodies", through which the contact travels, or with the "contact", by whole cells
     /// in every increment. Default: "bodies".
     pub frame: Option<At<Frame>>,
+    /// What lies beyond the maps of heights and friction, which are as long as the grid, where it goes with the contact: what is at their "edge"
+    /// continues, or the map "repeats", or "mirrors" itself at its edges. Needed where such a map travels through the grid.
+    pub beyond_maps: Option<At<BeyondMaps>>,
 }
 
 /// Stiffness whose inverse is a number, too.

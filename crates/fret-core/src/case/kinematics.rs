@@ -29,10 +29,19 @@ pub(super) fn kinematics(judge: &mut Judge, concerned: &Concerned<'_>) -> Kinema
     let is_steady = concerned.loading.0.iter().any(|stage| stage.value.controls.are_steady());
     let default = if is_steady { Frame::Contact } else { Frame::Bodies };
     let frame = frame.map_or(default, |given| given.value);
+    let beyond_maps = file.kinematics.as_ref().and_then(|given| given.value.beyond_maps.as_ref());
+    if let Some(given) = beyond_maps.filter(|_| frame == Frame::Bodies) {
+        judge.refuse::<()>(
+            given.span(),
+            "kinematics.beyond_maps with frame = \"bodies\": the grid is fixed to the bodies, and no map leaves it",
+            "leave it out, or frame = \"contact\"",
+        );
+    }
     let kinematics = Kinematics {
         displacement,
         friction_of_upper: moves_with.is_some_and(|given| given.value == Side::Upper),
         frame,
+        beyond_maps: beyond_maps.map(|given| given.value),
     };
     if !kinematics.is_finite() {
         if let Some(given) = moves_with.filter(|_| kinematics.friction_of_upper) {
@@ -50,7 +59,6 @@ pub(super) fn kinematics(judge: &mut Judge, concerned: &Concerned<'_>) -> Kinema
     let heights = file.profile.as_ref().and_then(|profile| profile.value.heights.as_ref());
     let of = heights.and_then(|heights| heights.value.of.as_ref()).filter(|of| of.value == OfFile::Gap);
     let coefficient = file.wear.as_ref().and_then(|wear| wear.value.coefficient.as_ref());
-    let evolution = file.friction.as_ref().and_then(|friction| friction.evolution.as_ref());
     let body = file.stress.as_ref().and_then(|stress| stress.value.body.as_ref());
     judge.refuse_given([
         (
@@ -72,11 +80,6 @@ pub(super) fn kinematics(judge: &mut Judge, concerned: &Concerned<'_>) -> Kinema
             coefficient.map(At::span),
             format!("wear.coefficient with {FINITE}: it is that of both bodies together, and each wears in its own frame"),
             "wear_coefficient = ... in the layers, substrates and rigid bodies that wear",
-        ),
-        (
-            evolution.filter(|_| kinematics.friction_of_upper).map(At::span),
-            "friction.evolution with friction.moves_with = \"upper\": slip is collected in the frame of the lower body".to_owned(),
-            "moves_with = \"lower\", where the places of the lower body change their friction; or a friction map that does not evolve",
         ),
         (
             file.thermal.as_ref().map(At::span),
@@ -118,6 +121,6 @@ mod tests {
         assert!(read(BALL, &[MOVES, map]).kinematics.friction_of_upper);
         let evolution = "{ by = \"energy\", last = 0.6, scale = 1e-4 }";
         let both = format!("coefficient = 0.3\nmoves_with = \"upper\"\nevolution = {evolution}\n");
-        refused(BALL, &[MOVES, ("coefficient = 0.3\n", &both)], "slip is collected in the frame", evolution);
+        assert!(read(BALL, &[MOVES, ("coefficient = 0.3\n", &both)]).kinematics.friction_of_upper);
     }
 }

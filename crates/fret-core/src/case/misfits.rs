@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use super::control_keys::Given;
 use super::judge::Judge;
 use super::stage_file::StageFile;
 use crate::document::At;
@@ -17,22 +16,6 @@ pub(super) struct Misfit {
     pub freedoms: Range<usize>,
     pub motions: bool,
     pub in_table: &'static str,
-}
-
-/// Refuses a moment about z, by a key or by a table, 0 as well: that of bodies which turn by what is prescribed, and not about the middle of the grid.
-pub(super) fn twist_by_moment(
-    judge: &mut Judge,
-    (files, checked): Loading<'_>,
-    (message, help): (&str, &str),
-) {
-    for (index, file) in files.iter().enumerate() {
-        let by_key = file.value.controls.of("twist_moment").map(Given::span);
-        let twist = checked.and_then(|stages| stages.get(index)).and_then(|stage| stage.twist.as_ref());
-        let by_table = file.value.table.as_ref().filter(|_| matches!(twist, Some(StageControl::Force(_))));
-        if let Some(span) = by_key.or(by_table.map(At::span)) {
-            judge.refuse::<()>(span, message, help);
-        }
-    }
 }
 
 impl Misfit {

@@ -32,6 +32,7 @@ mod repeating;
 mod residual;
 mod residual_file;
 mod rig;
+mod rolled_maps;
 mod rolling;
 mod shape;
 mod side;

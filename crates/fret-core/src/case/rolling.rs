@@ -5,7 +5,8 @@ use std::ops::Range;
 use super::control_keys::{BothOrOne, Given, LARGEST};
 use super::file::CaseFile;
 use super::judge::Judge;
-use super::misfits::{Loading, Misfit, twist_by_moment};
+use super::misfits::{Loading, Misfit};
+use super::rolled_maps::maps_that_travel;
 use super::stage_file::{IncrementsFile, StageFile};
 use crate::document::At;
 use crate::model::controls::{BULK_STRESS, FREEDOMS, Kind, ROLL, TANGENTIAL, TILT};
@@ -62,14 +63,13 @@ pub(super) fn rolling(
     beside(judge, loading, kinematics);
     steady(judge, loading, kinematics);
     if kinematics.frame == Frame::Contact {
-        in_the_frame_of_the_contact(judge, file, loading, (profile, laws));
+        in_the_frame_of_the_contact(judge, file, loading);
+        maps_that_travel(judge, file, loading, (kinematics, profile, laws));
     }
 }
 
 /// Refuses controls that have no place beside a roll.
 fn beside(judge: &mut Judge, loading: Loading<'_>, kinematics: Kinematics) {
-    let why = "twist_moment of a contact that rolls: its spin is prescribed";
-    twist_by_moment(judge, loading, (why, "spin, or no twist_moment: the upper body then does not turn"));
     if kinematics.frame == Frame::Bodies {
         let tilt = Misfit { freedoms: TILT..BULK_STRESS, motions: false, in_table: "a tilt" };
         let why = "of a contact that rolls, with kinematics.frame = \"bodies\": a tilt is about the middle of the grid, and the contact leaves it";
@@ -150,12 +150,7 @@ fn steady(judge: &mut Judge, (files, _): Loading<'_>, kinematics: Kinematics) {
 }
 
 /// Refuses what is fixed to bodies that travel through the grid.
-fn in_the_frame_of_the_contact(
-    judge: &mut Judge,
-    file: &CaseFile,
-    (files, stages): Loading<'_>,
-    (profile, laws): (Option<&Profile>, Option<&[&CoulombFriction]>),
-) {
+fn in_the_frame_of_the_contact(judge: &mut Judge, file: &CaseFile, (files, stages): Loading<'_>) {
     // By a key, or by the columns of a table.
     let checked = |index: usize| stages.and_then(|stages| stages.get(index));
     let marched = || {
@@ -188,19 +183,6 @@ fn in_the_frame_of_the_contact(
     refuse(file.wear.as_ref().map(At::span), "wear");
     let evolution = file.friction.as_ref().and_then(|friction| friction.evolution.as_ref());
     refuse(evolution.map(At::span), "friction.evolution");
-    // At the frame; where that follows from a steady roll, at this.
-    let frame = file.kinematics.as_ref().and_then(|given| given.value.frame.as_ref()).map(At::span);
-    let roll = || files.iter().find_map(|stage| stage.value.controls.of("roll")).map(Given::span);
-    if laws.is_some_and(|laws| laws.iter().any(|law| law.is_map())) {
-        refuse(frame.clone().or_else(roll), "a friction map");
-    }
-    let of_places = |profile: &Profile| {
-        let waves = profile.shapes.iter().any(|shape| matches!(shape, Shape::Wave { .. }));
-        waves || !profile.heights.is_empty()
-    };
-    if profile.is_some_and(of_places) {
-        refuse(frame.or_else(roll), "topography");
-    }
     for (index, stage) in marched() {
         let stress =
             stage.value.controls.0.iter().find(|given| (BULK_STRESS..ROLL).contains(&given.row.freedom));
@@ -209,10 +191,6 @@ fn in_the_frame_of_the_contact(
             stress.map(Given::span).or(by_table.map(At::span)),
             "a bulk stress that changes while the contact rolls",
         );
-        let cyclic = stage.value.cycles.is_some() || stage.value.until_steady.is_some();
-        if cyclic {
-            refuse(stage.value.controls.of("roll").map(Given::span), "cycles of roll");
-        }
     }
 }
 
@@ -279,9 +257,9 @@ mod tests {
         let punch =
             ("[profile.cylinder]\nradius = 100.0\naxis = \"y\"", "[profile.flat_punch]\nradius = 0.5");
         refused(ROLLER, &[punch, ("increments = 1\n", &one)], "an edge, a flat or a tip", "1.0");
-        // 0, too: the moment would be one about the middle of the grid
+        // The upper body may turn as it will.
         let ball = "increments = 1\n[[load]]\nroll = [1.0, 0.0]\ntwist_moment = 0.0\nincrements = 4\n";
-        refused(BALL, &[("increments = 1", ball)], "its spin is prescribed", "0.0");
+        assert!(read(BALL, &[("increments = 1", ball)]).stages[1].rolls());
         let tilted = with("roll = 1.0\ntilt = 1e-3");
         refused(ROLLER, &[("increments = 1\n", &tilted)], "middle of the grid", "1e-3");
     }
@@ -325,7 +303,6 @@ mod tests {
         };
         for (table, increments, why) in [
             ("roll_x\n0.5\n1.0\n", "\"auto\"", "whole cells"),
-            ("roll_x,twist_moment\n0.5,1e-3\n1.0,0.0\n", "4", "its spin is prescribed"),
             ("roll_x,bulk_stress_x\n0.5,1e-3\n1.0,0.0\n", "4", "changes while the contact rolls"),
         ] {
             let file = |_: &str| Ok(table.as_bytes().to_vec());

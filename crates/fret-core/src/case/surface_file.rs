@@ -272,7 +272,8 @@ pub(super) struct FrictionFile {
     /// Shear strength of the interface [pressure], zero or positive, a number or one for every cell: shear is at most the smaller of it
     /// and the coefficient times the pressure. Default: none.
     pub max_shear: Option<At<CoefficientFile>>,
-    /// The body that a map belongs to, with which it moves where `kinematics.displacement = "finite"`. Default: "lower".
+    /// The body that a map belongs to, and whose places remember what friction that evolves follows: it moves with that where
+    /// `kinematics.displacement = "finite"`. Default: "lower".
     pub moves_with: Option<At<Side>>,
     /// Friction that evolves: how the coefficient of each cell follows what slip has done to it. Default: it stays.
     pub evolution: Option<At<EvolutionFile>>,

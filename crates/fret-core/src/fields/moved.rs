@@ -12,6 +12,8 @@ pub enum Outside {
     Edge,
     /// The field again.
     Repeats,
+    /// The field again, mirrored at its edges.
+    Mirrors,
 }
 
 impl Outside {
@@ -19,6 +21,10 @@ impl Outside {
     fn index(self, index: isize, count: usize) -> Option<usize> {
         match self {
             Self::Repeats => Some(index.rem_euclid(count as isize) as usize),
+            Self::Mirrors => {
+                let there = index.rem_euclid(2 * count as isize) as usize;
+                Some(there.min(2 * count - 1 - there))
+            }
             Self::Edge => Some(index.clamp(0, count as isize - 1) as usize),
             Self::Zero => usize::try_from(index).ok().filter(|index| *index < count),
         }
@@ -162,7 +168,7 @@ mod tests {
     fn whole_cells_come_from_where_they_were_or_from_outside() {
         let field = Array2::from_shape_fn((4, 3), |(i, j)| 10 * i + j);
         for cells in [[0, 0], [1, -2], [-3, 3], [2, 5], [-7, -9]] {
-            for outside in [Outside::Zero, Outside::Edge, Outside::Repeats] {
+            for outside in [Outside::Zero, Outside::Edge, Outside::Repeats, Outside::Mirrors] {
                 let moved = carried_by_whole_cells(&field, cells, (outside, 99));
                 for ((i, j), value) in moved.indexed_iter() {
                     let [x, y] = [i as isize - cells[0], j as isize - cells[1]];
@@ -171,6 +177,11 @@ mod tests {
                         Outside::Zero => 99,
                         Outside::Edge => 10 * x.clamp(0, 3) + y.clamp(0, 2),
                         Outside::Repeats => 10 * x.rem_euclid(4) + y.rem_euclid(3),
+                        Outside::Mirrors => {
+                            // There and back again.
+                            let [there, across] = [x.rem_euclid(8) as usize, y.rem_euclid(6) as usize];
+                            [0, 10, 20, 30, 30, 20, 10, 0][there] + [0, 1, 2, 2, 1, 0][across]
+                        }
                     };
                     assert_eq!(*value as isize, expected, "{cells:?} {outside:?} {i} {j}");
                 }

@@ -108,17 +108,25 @@ impl Start {
         if own.is_object() && own["kinematics"].is_null() {
             own["kinematics"] = json!({ "displacement": "small" }); // of a version that knew no other
         }
-        // A contact that has not rolled lies in the same place in both frames.
-        let frame = |setting: &mut Value| {
-            let given = setting.as_object_mut().and_then(|setting| setting.remove(FRAME));
-            given.and_then(|frame| Some(frame.as_str()?.to_owned())).unwrap_or_else(|| "bodies".to_owned())
-        };
         let mut of_case = setting(plan);
-        let (case, state) = (frame(&mut of_case), frame(&mut own));
+        let reached = &self.solved.state;
+        // A contact that has not rolled lies in the same place in both frames; surfaces that have not slipped remember nothing.
+        let matters = [
+            (FRAME, "kinematics.frame", "bodies", reached.roll != [0.0; 2]),
+            (WHOSE_FRICTION, "friction.moves_with", "lower", reached.accumulated.is_some()),
+        ];
+        let words = matters.map(|(name, _, default, _)| {
+            [&mut of_case, &mut own].map(|setting| {
+                let given = setting.as_object_mut().and_then(|setting| setting.remove(name));
+                given.and_then(|word| Some(word.as_str()?.to_owned())).unwrap_or_else(|| default.to_owned())
+            })
+        });
         let mut found = Vec::new();
         differences("", &of_case, &own, &mut found);
-        if self.solved.state.roll != [0.0; 2] && case != state {
-            found.push(Difference { key: "kinematics.frame".to_owned(), case, state });
+        for ((_, key, _, matters), [case, state]) in matters.into_iter().zip(words) {
+            if matters && case != state {
+                found.push(Difference { key: key.to_owned(), case, state });
+            }
         }
         found
     }
@@ -134,6 +142,8 @@ impl Start {
 
 /// Key of the frame in which a contact rolls.
 const FRAME: &str = "frame";
+/// Key of the body to whose places a friction map, and what friction follows, belong.
+const WHOSE_FRICTION: &str = "friction_of";
 
 /// What a state belongs to, with the keys that a case has for it.
 pub(crate) fn setting(plan: &Value) -> Value {
@@ -149,6 +159,7 @@ pub(crate) fn setting(plan: &Value) -> Value {
         "profile": case["profile"],
         "kinematics": { "displacement": displacement(case) },
         FRAME: case["kinematics"]["frame"],
+        WHOSE_FRICTION: if case["kinematics"]["friction_of_upper"] == true { "upper" } else { "lower" },
     });
     // approach and shift of a line contact are relative to it
     if !plan["datum"].is_null() {

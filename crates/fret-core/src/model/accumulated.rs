@@ -49,6 +49,11 @@ impl AccumulatedSlip {
         }
     }
 
+    /// Its fields, to be changed.
+    pub fn fields_mut(&mut self) -> [&mut Array2<f64>; 2] {
+        [&mut self.energy_density, &mut self.distance]
+    }
+
     /// Its fields.
     pub fn fields(&self) -> [&Array2<f64>; 2] {
         [&self.energy_density, &self.distance]

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::dimension::Dimension;
 use super::grid::SurfaceGrid;
 use crate::document::Table;
-use crate::fields::InPlane;
+use crate::fields::{InPlane, Outside};
 
 /// How far the surfaces are taken to move.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, Table, JsonSchema)]
@@ -34,6 +34,30 @@ pub enum Frame {
     Contact,
 }
 
+/// What lies beyond the maps of heights and friction, which are as long as the grid, where a contact rolls off them with its grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, Table, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "BeyondMapsFile")]
+pub enum BeyondMaps {
+    /// What is at their edges continues: for a dent in a flat.
+    Edge,
+    /// They begin anew: for maps that are periodic.
+    Repeats,
+    /// They begin anew, mirrored at their edges: for a measured surface.
+    Mirrors,
+}
+
+impl BeyondMaps {
+    /// The same of a field.
+    pub fn outside(self) -> Outside {
+        match self {
+            Self::Edge => Outside::Edge,
+            Self::Repeats => Outside::Repeats,
+            Self::Mirrors => Outside::Mirrors,
+        }
+    }
+}
+
 /// How the surfaces of a case move.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Kinematics {
@@ -44,6 +68,9 @@ pub struct Kinematics {
     /// Where the grid is while the contact rolls.
     #[serde(default)]
     pub frame: Frame,
+    /// What lies beyond maps that travel through the grid; `None` where none does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub beyond_maps: Option<BeyondMaps>,
 }
 
 impl Kinematics {

@@ -47,7 +47,7 @@ pub use grid::{GridError, SurfaceGrid};
 pub use half_space::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace, MaterialError};
 pub use heights::{Detrend, Heights, HeightsSummary};
 pub use interface::{Interface, InterfaceError};
-pub use kinematics::{Displacement, Frame, Kinematics, MOST_CELLS, Motion, Place, step_towards};
+pub use kinematics::{BeyondMaps, Displacement, Frame, Kinematics, MOST_CELLS, Motion, Place, step_towards};
 pub use load::{Control, LoadStep, Reached};
 pub use mirrored_state::MirroredState;
 pub use periodicity::Periodicity;

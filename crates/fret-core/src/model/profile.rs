@@ -7,7 +7,7 @@ use super::grid::SurfaceGrid;
 use super::heights::Heights;
 use super::kinematics::{Motion, Place};
 use super::shape::Shape;
-use crate::fields::{Outside, in_portions};
+use crate::fields::{Outside, carried_by_whole_cells, in_portions};
 
 /// Gap where one of the bodies has ended, in diagonals of the grid: finite, so that sums stay numbers, and out of reach.
 pub const BEYOND_THE_BODY: f64 = 1e6;
@@ -32,6 +32,12 @@ impl Default for Profile {
     fn default() -> Self {
         Self { shapes: Vec::new(), heights: Vec::new(), of_upper: [0; 2] }
     }
+}
+
+/// The gap where a body has ended [length].
+fn beyond(grid: &SurfaceGrid) -> f64 {
+    let [width, depth] = grid.size();
+    BEYOND_THE_BODY * width.hypot(depth)
 }
 
 impl<H> Profile<H> {
@@ -79,28 +85,37 @@ impl Profile {
     /// Heights of another shape than the grid's are left out; a checked case has none.
     pub fn gap(&self, grid: &SurfaceGrid) -> Array2<f64> {
         let cells = grid.cells();
-        let [width, depth] = grid.size();
-        let beyond = BEYOND_THE_BODY * width.hypot(depth);
-        let mut gap = Array2::zeros(cells);
-        let values = gap.as_slice_mut().unwrap_or_default();
-        in_portions((grid.len(), NUMBERS), [values], &|cells, [gap]| {
-            for (gap, cell) in gap.iter_mut().zip(cells) {
-                let (i, j) = (cell / grid.cells()[1], cell % grid.cells()[1]);
-                *gap = self.gap_of_shapes_at(grid.centre(0, i), grid.centre(1, j));
-            }
-        });
-        let fitting = || self.heights.iter().filter(|heights| heights.cells() == cells);
-        for heights in fitting() {
-            gap += heights.depths();
-        }
+        let mut gap = self.sum(grid, None);
         if self.is_lowest_anywhere(cells) {
             let first = gap.iter().copied().fold(self.middle(), f64::min);
             if first.is_finite() {
                 gap -= first;
             }
         }
-        gap.mapv_inplace(|gap| gap.min(beyond));
+        gap.mapv_inplace(|gap| gap.min(beyond(grid)));
         gap
+    }
+
+    /// Sum of the shapes and of the heights at the cell centres [length]; of heights that have been `carried` by whole cells along each axis, with what
+    /// lies beyond them, where they have.
+    fn sum(&self, grid: &SurfaceGrid, carried: Option<([isize; 2], Outside)>) -> Array2<f64> {
+        let mut sum = Array2::zeros(grid.cells());
+        let values = sum.as_slice_mut().unwrap_or_default();
+        in_portions((grid.len(), NUMBERS), [values], &|cells, [sum]| {
+            for (sum, cell) in sum.iter_mut().zip(cells) {
+                let (i, j) = (cell / grid.cells()[1], cell % grid.cells()[1]);
+                *sum = self.gap_of_shapes_at(grid.centre(0, i), grid.centre(1, j));
+            }
+        });
+        for heights in self.heights.iter().filter(|heights| heights.cells() == grid.cells()) {
+            match carried {
+                None => sum += heights.depths(),
+                Some((by, outside)) => {
+                    sum += &carried_by_whole_cells(heights.depths(), by, (outside, 0.0));
+                }
+            }
+        }
+        sum
     }
 
     /// The undeformed gap where the upper body lies at a place, counted from where it touches first without a shift: its
@@ -111,8 +126,6 @@ impl Profile {
             return self.gap(grid);
         }
         let mut gap = Array2::zeros(grid.cells());
-        let [width, depth] = grid.size();
-        let beyond = BEYOND_THE_BODY * width.hypot(depth);
         let is_counted = self.is_lowest_anywhere(grid.cells());
         let first = if is_counted { self.first_touch(grid) } else { 0.0 };
         let [of_upper, heights_of_upper] = self.of_upper;
@@ -147,7 +160,7 @@ impl Profile {
         if is_counted && first.is_finite() {
             gap -= first;
         }
-        gap.mapv_inplace(|gap| gap.min(beyond));
+        gap.mapv_inplace(|gap| gap.min(beyond(grid)));
         gap
     }
 
@@ -177,15 +190,23 @@ impl Profile {
         )
     }
 
+    /// The undeformed gap on a grid that has gone with a contact by so many whole cells along each axis: paraboloids have gone along, heights, which
+    /// belong to places of the surfaces, lie so many cells behind. `outside`: what lies beyond them.
+    pub fn gap_passed(&self, grid: &SurfaceGrid, cells: [isize; 2], outside: Outside) -> Array2<f64> {
+        let mut gap = self.sum(grid, Some((cells.map(|cells| -cells), outside)));
+        if self.is_lowest_anywhere(grid.cells()) {
+            let first = self.first_touch(grid);
+            if first.is_finite() {
+                gap -= first;
+            }
+        }
+        gap.mapv_inplace(|gap| gap.min(beyond(grid)));
+        gap
+    }
+
     /// Lowest sum of shapes and heights of a cell, or in the middle [length].
     fn first_touch(&self, grid: &SurfaceGrid) -> f64 {
-        let mut sum = Array2::from_shape_fn(grid.cells(), |(i, j)| {
-            self.gap_of_shapes_at(grid.centre(0, i), grid.centre(1, j))
-        });
-        for heights in self.heights.iter().filter(|heights| heights.cells() == grid.cells()) {
-            sum += heights.depths();
-        }
-        sum.into_iter().fold(self.middle(), f64::min)
+        self.sum(grid, None).into_iter().fold(self.middle(), f64::min)
     }
 
     /// Whether the gap is the same everywhere along an axis (0: x, 1: y).

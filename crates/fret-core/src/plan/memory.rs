@@ -1,7 +1,7 @@
 //! How much memory a run takes: the one place of these numbers. `benches/expected_cost.py` sets them beside what runs took.
 
 use crate::case::{Case, StageControl};
-use crate::model::{DebrisRule, Heights, SurfaceGrid, Symmetry};
+use crate::model::{DebrisRule, Frame, Heights, SurfaceGrid, Symmetry};
 use crate::solver::{Coupling, NUMBERS_OF_CYCLE};
 
 /// Bytes of the process itself.
@@ -29,6 +29,10 @@ const TILTED: usize = 16;
 const BY_MOMENT: usize = 100;
 /// Bytes a cell of surfaces that move: the gap and the wear of each body, and with symmetry reduction the operator of the upper body.
 const MOVING: [usize; 2] = [80, 260];
+/// Bytes a cell of friction maps that move: the law as the body has it, and at both ends of an increment.
+const MOVING_FRICTION: usize = 24;
+/// Bytes a cell of maps that travel through a grid which goes with a contact: gap and friction at both ends of an increment.
+const PASSING: usize = 40;
 /// Bytes a cell of the tractions of their last cycle, in memory and in a checkpoint.
 const CYCLE: usize = NUMBERS_OF_CYCLE * size_of::<f64>();
 /// Bytes a cell of the tractions and slips of an increment whose stresses are looked at.
@@ -85,12 +89,15 @@ pub fn of_run(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Sym
     let evolving = if case.friction_evolution.is_some() { EVOLVING } else { 0 };
     let frictions = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
     let maps = frictions.filter(|friction| friction.is_map()).count() + case.profile.heights.len();
+    let passes = case.rolls() && case.kinematics.frame == Frame::Contact && maps > 0;
+    let moving_maps = if passes { PASSING } else { 0 }
+        + if case.kinematics.friction_of_upper { MOVING_FRICTION } else { 0 };
     let points: usize = case.profile.heights.iter().map(Heights::points).sum();
     let [moving, operator] = if case.kinematics.is_finite() { MOVING } else { [0; 2] };
     let cycle = if case.kinematics.is_finite() { CYCLE } else { 0 };
     let in_front = in_front + remembered + tilt(case) + operator + cycle;
     let left_behind = if grid.len() * size_of::<f64>() < GOES_BACK { LEFT_BEHIND } else { 0 };
-    let whole = whole + left_behind + worn + evolving + EACH_CELL * maps + moving;
+    let whole = whole + left_behind + worn + evolving + EACH_CELL * maps + moving + moving_maps;
     let solving = grid.len() * (whole + in_front / symmetry.copies());
     let stressed = case.stress.as_ref().map_or(0, |stress| {
         of_stress(grid.len(), case.kept_increments().len().div_ceil(stress.every.max(1)))

@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::slip_increment::add_slip;
+use super::slip_increment::{add_slip, slip_by_ends};
+use super::upper_frame::UpperFrame;
 use crate::model::{AccumulatedSlip, ContactState, CoulombFriction, FrictionEvolution, Integration};
+use crate::solver::SolveError;
 
 /// What a run knows of the cycle at work and of the cycle jump before it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -50,6 +52,8 @@ pub struct Evolving {
     /// The law in force: that of what is accumulated in the state.
     now: CoulombFriction,
     collected: CollectedSlip,
+    /// How the upper body moves, where the law and all that it follows are of its cells.
+    frame: Option<UpperFrame>,
 }
 
 impl Evolving {
@@ -61,10 +65,16 @@ impl Evolving {
         collected: CollectedSlip,
     ) -> Self {
         let now = rule.friction(&first, slipped);
-        Self { rule, first, now, collected }
+        Self { rule, first, now, collected, frame: None }
     }
 
-    /// The law in force.
+    /// The same on the cells of an upper body that moves over the grid, where it does.
+    #[must_use]
+    pub fn in_frame(self, frame: Option<UpperFrame>) -> Self {
+        Self { frame, ..self }
+    }
+
+    /// The law in force, over the grid where the body that it belongs to lies without a shift.
     pub fn friction(&self) -> &CoulombFriction {
         &self.now
     }
@@ -74,9 +84,26 @@ impl Evolving {
         &self.collected
     }
 
-    /// Adds the slip between two states that follow each other.
-    pub fn add(&mut self, states: [&ContactState; 2], integration: Integration) {
-        add_slip(states, integration, &self.now, &mut self.collected.of_cycle);
+    /// Adds the slip between two states that follow each other, each under the friction law that lay over the grid in it.
+    ///
+    /// # Errors
+    /// When the slip of an upper body leaves the grid, on which that lay without a shift.
+    pub fn add(
+        &mut self,
+        states: [&ContactState; 2],
+        laws: [&CoulombFriction; 2],
+        integration: Integration,
+    ) -> Result<(), SolveError> {
+        let Some(frame) = self.frame else {
+            add_slip(states, integration, laws, &mut self.collected.of_cycle);
+            return Ok(());
+        };
+        for (part, state) in slip_by_ends(states, integration, laws).iter().zip(states) {
+            for (over_grid, to) in part.fields().into_iter().zip(self.collected.of_cycle.fields_mut()) {
+                frame.collect(over_grid, state, to)?;
+            }
+        }
+        Ok(())
     }
 
     /// Another stage: its cycles tell nothing of the jumps before.

@@ -301,7 +301,8 @@ impl<'a> Journey<'a> {
             may_keep.then(|| kept(&solved, (friction, symmetry), increment, &case.output.fields)).transpose();
         let kept = kept.map_err(|error| RunError::OutOfMemory { increment, error })?;
         if let Some(cycle) = &mut self.cycle {
-            cycle.add(&record, slid(&self.state, &solved.state));
+            let before = self.solver.brought_to(&self.state, &solved.state);
+            cycle.add(&record, slid(&before, &solved.state));
         }
         self.place.resultants = solved.outcome.resultants;
         self.place.held = held;

@@ -29,6 +29,8 @@ mod stiffest_wave;
 mod strides;
 mod surfaces;
 mod thinning;
+mod turn_by_moment;
+mod upper_frame;
 mod wear;
 
 pub use checkpoint::{Checkpoint, CheckpointError, Waypoint};

@@ -8,6 +8,7 @@ use ndarray::Array2;
 use super::pair_compliance::PairCompliance;
 use super::rolling::Rolling;
 use super::steady::Onward;
+use super::turn_by_moment::TurnByMoment;
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance};
 use crate::fields::Outside;
 use crate::model::{
@@ -22,8 +23,6 @@ use crate::solver::{ContactSolver, Increment, IterationCallback, SolveError, Sol
 const MOST_ROUNDS: usize = 12;
 /// From this round on two places beside each other are taken for one.
 const TAKING_TURNS: usize = 4;
-/// By how much of a change of the twist that is taken the twist found changes, at the most, where the next one is looked for.
-const STEEPEST: f64 = 0.9;
 /// Two places are one where nothing on the grid lies in them farther apart than this, in cells.
 const SAME_PLACE: f64 = 1e-4;
 /// Two places are beside each other where they lie no farther apart than this along the axes, in cells: positions are rounded to a hundredth.
@@ -52,34 +51,10 @@ pub struct Moving {
     upper: Option<UpperBody>,
     /// A friction law whose maps are the upper body's.
     friction: Option<CoulombFriction>,
-    /// Whether a friction law moves.
-    moves_friction: bool,
+    /// Whether friction maps are the upper body's.
+    friction_of_upper: bool,
     /// Where the gap that the solver has is that of; `None`: nowhere any more.
     at: Option<Place>,
-}
-
-/// Twists that were taken for that of a moment in the rounds of an increment, with those that were then found.
-#[derive(Default)]
-struct TurnByMoment {
-    /// The last twist taken and found [rad], and how far the upper surface lay shifted [cells].
-    last: Option<([f64; 2], [f64; 2])>,
-}
-
-impl TurnByMoment {
-    /// The next twist to take, after one was taken and another found: where a line through this round and the one before finds what it takes. A contact
-    /// that slides finds half of a turn, say, anew in each round.
-    fn next(&mut self, [taken, found]: [f64; 2], cells: [f64; 2]) -> f64 {
-        let last = self.last.replace(([taken, found], cells));
-        let Some(([taken_before, found_before], _)) = last.filter(|(_, before)| *before == cells) else {
-            return found;
-        };
-        let slope = (found - found_before) / (taken - taken_before);
-        if slope.is_finite() {
-            taken + (found - taken) / (1.0 - slope.clamp(-STEEPEST, STEEPEST))
-        } else {
-            found
-        }
-    }
 }
 
 /// How the upper body alone responds. Bodies that are similar do not couple as a pair; each alone does.
@@ -138,7 +113,7 @@ impl Moving {
             profile: plan.case.profile.clone(),
             upper: UpperBody::of(plan, bodies.upper())?,
             friction: None,
-            moves_friction: plan.case.kinematics.friction_of_upper,
+            friction_of_upper: plan.case.kinematics.friction_of_upper,
             at: None,
         })
     }
@@ -154,14 +129,15 @@ impl Moving {
 
     /// Another friction law from now on, of the upper body where maps move with it.
     pub fn set_friction(&mut self, friction: &CoulombFriction) {
-        let moves = self.moves_friction && friction.is_map();
+        let moves = self.friction_of_upper && friction.is_map();
         self.friction = moves.then(|| friction.clone());
         self.at = None;
     }
 
-    /// Whether friction is another one from increment to increment.
-    pub fn moves_friction(&self) -> bool {
-        self.friction.is_some()
+    /// The friction law over the grid where the upper body, whose maps it has, lies at a place; `None` where it has none.
+    fn friction_at(&self, place: Place) -> Option<CoulombFriction> {
+        let over = self.motion.over_grid(place);
+        self.friction.as_ref().map(|law| law.with_maps(|map| over.of(map, self.outside())))
     }
 
     fn outside(&self) -> Outside {
@@ -239,15 +215,13 @@ impl<'a> Stepper<'a> {
         Self { solver, moving: None, rolling: None }
     }
 
-    /// Whether friction is another one from increment to increment.
-    pub fn moves_friction(&self) -> bool {
-        self.moving.as_ref().is_some_and(Moving::moves_friction)
-    }
-
     /// Another friction law from the next increment on, with the maps of a body where that lies without a shift.
     pub fn set_friction(&mut self, friction: Cow<'a, CoulombFriction>) {
         if let Some(moving) = &mut self.moving {
             moving.set_friction(&friction);
+        }
+        if let Some(rolling) = &mut self.rolling {
+            rolling.set_friction(&friction);
         }
         self.solver.set_friction(friction);
     }
@@ -302,6 +276,11 @@ impl<'a> Stepper<'a> {
         self.rolling.as_ref().is_none_or(|rolling| rolling.may_stop_at(state, load))
     }
 
+    /// A state before an increment on the cells where its places are after it: a grid that goes with a contact leaves them behind.
+    pub fn brought_to<'s>(&self, state: &'s ContactState, after: &ContactState) -> Cow<'s, ContactState> {
+        self.rolling.as_ref().map_or(Cow::Borrowed(state), |rolling| rolling.brought_to(state, after))
+    }
+
     /// What the solver remembers.
     pub fn memory(&self) -> &SolverMemory {
         self.solver.memory()
@@ -332,7 +311,7 @@ impl<'a> Stepper<'a> {
         let (to, mut twist, is_known) = Moving::prescribed(load, state);
         let mut place = moving.motion.place(to, twist);
         let memory = (!is_known).then(|| solver.memory().clone());
-        let gap_before = moving.gap_at(state, from);
+        let (gap_before, law_before) = (moving.gap_at(state, from), moving.friction_at(from));
         let (mut before, mut work) = (None, Work::default());
         let (mut round, mut turn) = (1, TurnByMoment::default());
         loop {
@@ -341,13 +320,12 @@ impl<'a> Stepper<'a> {
             let gap = moves.then(|| moving.gap_at(state, place));
             if moving.at != Some(place) {
                 solver.move_gap(gap.as_ref().unwrap_or(&gap_before).clone());
-                if let Some(friction) = &moving.friction {
-                    let outside = moving.outside();
-                    let over = moving.motion.over_grid(place);
-                    solver.set_friction(Cow::Owned(friction.with_maps(|map| over.of(map, outside))));
+                if let Some(law) = moving.friction_at(place) {
+                    solver.set_friction(Cow::Owned(law));
                 }
                 moving.at = Some(place);
             }
+            solver.set_friction_before(law_before.clone().filter(|_| moves));
             let outside = moving.outside();
             let along = moving.upper.as_mut().filter(|_| moves).map(|upper| {
                 let before = before.get_or_insert_with(|| {

@@ -54,10 +54,7 @@ fn halved(
 ) -> Result<(Increment, usize), SolveError> {
     match solver.step(span.state, span.to, watch) {
         Ok(end) => {
-            if solver.moves_friction() {
-                surfaces.take_friction(solver.solver.friction());
-            }
-            surfaces.add(span.state, &end.state)?;
+            surfaces.add([span.state, &end.state], solver.solver.laws())?;
             Ok((end, 1))
         }
         Err(error) if error.is_of_long_increments() && halvings > 0 && span.from != span.to => {

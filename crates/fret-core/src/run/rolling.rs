@@ -1,16 +1,34 @@
 //! Increments of a contact that rolls along both surfaces: where the bodies lie over the grid, or the grid over the bodies.
 
+use std::borrow::Cow;
+
 use ndarray::{Array2, Axis};
 
-use crate::fields::{Outside, carried};
-use crate::model::{ContactState, Frame, LoadStep, Profile, SurfaceGrid, Symmetry};
+use super::turn_by_moment::TurnByMoment;
+use crate::fields::{Outside, carried, carried_by_whole_cells};
+use crate::model::{
+    BeyondMaps, ContactState, CoulombFriction, Frame, LoadStep, Profile, SurfaceGrid, Symmetry,
+};
 use crate::plan::Plan;
-use crate::solver::{ContactSolver, Increment, IterationCallback, SolveError};
+use crate::solver::{ContactSolver, Increment, IterationCallback, SolveError, Work};
 
 /// So much of a cell is rounding: numbers of cells are sums of lengths.
 const ROUNDING: f64 = 1e-6;
 /// And of a way between two such sums, which a plan has found to be whole.
 const WHOLE: f64 = 1e-4;
+/// Rounds in which the turn that follows from a moment is found in alternation with the place about which it is.
+const MOST_ROUNDS: usize = 12;
+/// Two turns are one where they differ by this part of themselves: what half a step does to the place changes slip by less.
+const SAME_TURN: f64 = 1e-7;
+
+/// What lies beyond the maps of bodies whose places travel through the grid of a plan; `None` where none does.
+fn passing(plan: &Plan) -> Option<Outside> {
+    let case = &plan.case;
+    let mut laws = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
+    let travel = case.kinematics.frame == Frame::Contact
+        && (!case.profile.heights.is_empty() || laws.any(CoulombFriction::is_map));
+    travel.then(|| case.kinematics.beyond_maps.map_or(Outside::Edge, BeyondMaps::outside))
+}
 
 /// A contact that rolls along both surfaces. Fields are those in front of the mirrors.
 pub struct Rolling {
@@ -20,7 +38,11 @@ pub struct Rolling {
     symmetry: Symmetry,
     frame: Frame,
     profile: Profile,
-    /// Where the gap that the solver has is that of, in cells, with the frame of the bodies; `None`: nowhere any more.
+    /// What lies beyond the maps of the bodies, where their places travel through a grid that goes with the contact; `None` where none does.
+    passing: Option<Outside>,
+    /// A friction law with maps that travel so.
+    friction: Option<CoulombFriction>,
+    /// Where gap and friction that the solver has are those of, in cells; `None`: nowhere any more.
     at: Option<[f64; 2]>,
 }
 
@@ -33,8 +55,27 @@ impl Rolling {
             symmetry: plan.symmetry,
             frame: plan.case.kinematics.frame,
             profile: plan.case.profile.clone(),
+            passing: passing(plan),
+            friction: None,
             at: None,
         }
+    }
+
+    /// Another friction law from now on, over the grid where the contact has not rolled.
+    pub fn set_friction(&mut self, friction: &CoulombFriction) {
+        if self.passing.is_some() {
+            self.friction = friction.is_map().then(|| friction.clone());
+            self.at = None;
+        }
+    }
+
+    /// A state before an increment on the cells where its places are after it.
+    pub fn brought_to<'s>(&self, state: &'s ContactState, after: &ContactState) -> Cow<'s, ContactState> {
+        let by = self.cells_between(state.roll, after.roll);
+        if self.frame == Frame::Bodies || by == [0.0; 2] {
+            return Cow::Borrowed(state);
+        }
+        Cow::Owned(state.carried(by.map(|by| -by)))
     }
 
     /// The surfaces have worn: the gap that the solver has is that of no place.
@@ -53,7 +94,11 @@ impl Rolling {
 
     /// Cells from a state to a load; with the contact the grid moves by whole ones, whatever rounding has made of sums of lengths.
     fn way(&self, state: &ContactState, load: &LoadStep) -> [f64; 2] {
-        let [from, to] = [state.roll, load.roll].map(|roll| self.cells(roll));
+        self.cells_between(state.roll, load.roll)
+    }
+
+    fn cells_between(&self, from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
+        let [from, to] = [from, to].map(|roll| self.cells(roll));
         let by = [0, 1].map(|axis| to[axis] - from[axis]);
         if self.frame == Frame::Contact { by.map(f64::round) } else { by }
     }
@@ -100,11 +145,11 @@ impl Rolling {
         self.advance(solver, state, load, watch)
     }
 
-    /// In the frame of the bodies with the gap there, in that of the contact from the state before, carried back by the cells that the grid goes
-    /// ahead. A spin is about the middle of the contact, which goes along: in all the rotation about where it is half-way.
+    /// As [`Rolling::step`], whatever lies open beside the contact. A turn that follows from a moment is found in rounds: what the place half-way
+    /// adds to it is that of the turn that is taken.
     ///
     /// # Errors
-    /// As [`ContactSolver::step`].
+    /// As [`ContactSolver::step`]; that the turn wanders, when the rounds do not end.
     pub(super) fn advance(
         &mut self,
         solver: &mut ContactSolver<'_>,
@@ -112,17 +157,52 @@ impl Rolling {
         load: &LoadStep,
         watch: IterationCallback<'_>,
     ) -> Result<Increment, SolveError> {
+        if load.twist.force().is_none() {
+            let turned = load.twist.motion().map_or(0.0, |twist| twist - state.twist);
+            return self.turned(solver, state, (load, turned), watch);
+        }
+        let by = self.way(state, load);
+        let memory = solver.memory().clone();
+        let (mut taken, mut work, mut turn) = (0.0, Work::default(), TurnByMoment::default());
+        for _ in 0..MOST_ROUNDS {
+            let mut solved = self.turned(solver, state, (load, taken), watch)?;
+            work += solved.work;
+            let found = solved.state.twist - state.twist;
+            if by == [0.0; 2] || (found - taken).abs() <= SAME_TURN * found.abs() {
+                solved.work = work;
+                return Ok(solved);
+            }
+            solver.restore_memory(memory.clone());
+            taken = turn.next([taken, found], by);
+        }
+        let apart = 0.5 * taken.abs() * by[0].hypot(by[1]);
+        Err(SolveError::Wanders { apart, rounds: MOST_ROUNDS })
+    }
+
+    /// In the frame of the bodies with the gap there, in that of the contact from the state before, carried back by the cells that the grid goes
+    /// ahead. A rotation is about the middle of the contact, which goes along: in all about where it is half-way, and so much more than about its end
+    /// is added for a turn that is `turned` [rad].
+    fn turned(
+        &mut self,
+        solver: &mut ContactSolver<'_>,
+        state: &ContactState,
+        (load, turned): (&LoadStep, f64),
+        watch: IterationCallback<'_>,
+    ) -> Result<Increment, SolveError> {
         let [from, to] = [state.roll, load.roll].map(|roll| self.cells(roll));
         let by = self.way(state, load);
+        // A moment is one about the middle of the contact.
+        let is_by_moment = load.twist.force().is_some();
+        let middle = if is_by_moment && self.frame == Frame::Bodies { to } else { [0.0; 2] };
         let half_way = |axis: usize| match self.frame {
-            Frame::Bodies => 0.5 * (from[axis] + to[axis]),
+            Frame::Bodies => 0.5 * (from[axis] + to[axis]) - middle[axis],
             Frame::Contact => -0.5 * by[axis],
         };
         let pole = [0, 1].map(|axis| half_way(axis) * self.grid.spacing()[axis]);
-        let turned = load.twist.motion().map_or(0.0, |twist| twist - state.twist);
         let of_spin = (turned != 0.0 && pole != [0.0; 2]).then(|| {
             [turned * pole[1], -turned * pole[0]].map(|along| Array2::from_elem(state.pressure.dim(), along))
         });
+        solver.set_pole([0, 1].map(|axis| middle[axis] * self.grid.spacing()[axis]));
         match self.frame {
             Frame::Bodies => {
                 let moved = (by != [0.0; 2]).then(|| self.part_of_gap(to) - self.part_of_gap(from));
@@ -137,12 +217,16 @@ impl Rolling {
                 let solved = solver.step(state, load, watch);
                 solver.set_carried(None, None, [0.0; 2]);
                 solver.set_rolled([0.0; 2]);
-                solved.map(|solved| self.about_the_contact(solved, to))
+                solved.map(|solved| self.about_the_contact(solved, (to, middle)))
             }
             Frame::Contact => {
                 let back = by.map(|by| -by);
-                let gap = solver.undeformed();
-                let moved = (by != [0.0; 2]).then(|| gap - &carried(gap, back, Outside::Edge));
+                let moved = if let Some(outside) = self.passing {
+                    self.pass(solver, [from, to].map(|roll| roll.map(f64::round)), outside)
+                } else {
+                    let gap = solver.undeformed();
+                    (by != [0.0; 2]).then(|| gap - &carried(gap, back, Outside::Edge))
+                };
                 let memory = solver.carry_memory(back.map(|back| back as isize));
                 solver.set_carried(of_spin, moved, by);
                 solver.set_rolled(by);
@@ -157,11 +241,42 @@ impl Rolling {
         }
     }
 
-    /// Moments about the middle of the contact, which has rolled by so many cells, not about that of the grid.
-    fn about_the_contact(&self, mut solved: Increment, cells: [f64; 2]) -> Increment {
+    /// The gap and the friction of the places over which the grid lies after it has rolled to so many cells; by how much the gap of each place has changed
+    /// since it was `from` others, where it was.
+    fn pass(
+        &mut self,
+        solver: &mut ContactSolver<'_>,
+        [from, to]: [[f64; 2]; 2],
+        outside: Outside,
+    ) -> Option<Array2<f64>> {
+        let back = [0, 1].map(|axis| from[axis] - to[axis]);
+        let gap = self.gap_passed(to, outside);
+        let moved =
+            (from != to).then(|| &gap - &carried(&self.gap_passed(from, outside), back, Outside::Edge));
+        if self.at != Some(to) {
+            if let Some(law) = &self.friction {
+                let by = to.map(|cells| -(cells as isize));
+                let law = law.with_maps(|map| carried_by_whole_cells(map, by, (outside, 0.0)));
+                solver.set_friction(Cow::Owned(law));
+            }
+            solver.move_gap(gap);
+            self.at = Some(to);
+        }
+        moved
+    }
+
+    fn gap_passed(&self, cells: [f64; 2], outside: Outside) -> Array2<f64> {
+        let gap = self.profile.gap_passed(&self.grid, cells.map(|cells| cells as isize), outside);
+        if self.symmetry.any() { self.symmetry.part(&gap) } else { gap }
+    }
+
+    /// Moments about the middle of the contact, which has rolled by so many cells, not about that of the grid; about z of one that is found about a
+    /// `middle` [cells].
+    fn about_the_contact(&self, mut solved: Increment, (cells, middle): ([f64; 2], [f64; 2])) -> Increment {
         let [x, y] = [0, 1].map(|axis| cells[axis] * self.grid.spacing()[axis]);
+        let [arm_x, arm_y] = [0, 1].map(|axis| (cells[axis] - middle[axis]) * self.grid.spacing()[axis]);
         let found = &mut solved.outcome.resultants;
-        found.moment -= x * found.tangential[1] - y * found.tangential[0];
+        found.moment -= arm_x * found.tangential[1] - arm_y * found.tangential[0];
         found.tilt_moment =
             [found.tilt_moment[0] - x * found.normal, found.tilt_moment[1] - y * found.normal];
         solved

@@ -19,10 +19,11 @@ use super::run_error::{RunError, run_error, too_thin};
 use super::stiffest_wave::StiffestWave;
 use super::surfaces::Surfaces;
 use super::thinning::bodies_left;
+use super::upper_frame::UpperFrame;
 use super::wear::{Collected, Wearing};
 use crate::history::History;
 use crate::machine::memory::{Claim, claim};
-use crate::model::{BulkCompliance, Motion};
+use crate::model::BulkCompliance;
 use crate::plan::{Plan, Simplification};
 use crate::solver::{ContactSolver, SolverSettings};
 
@@ -141,7 +142,7 @@ impl<'a> Simulation<'a> {
             case.wear.as_ref().zip(upper_wear).zip(stiffest.clone()).map(|((rule, collected), stiffest)| {
                 let wearing =
                     Wearing::new(rule.of_body(1), stiffest, Array2::zeros([0, 0]), friction(), collected);
-                (wearing.with_rim(rim(1)), (Motion::over(&plan.grid), case.periodic.is_both()))
+                (wearing.with_rim(rim(1)), UpperFrame::of(plan))
             });
         let rule =
             if upper.is_some() { case.wear.as_ref().map(|rule| rule.of_body(0)) } else { case.wear.clone() };
@@ -150,9 +151,13 @@ impl<'a> Simulation<'a> {
             Wearing::new(rule, stiffest, unworn, friction(), collected).with_rim(rim(0))
         });
         let evolution = case.friction_evolution.clone().zip(slip).zip(state.accumulated.as_ref());
-        let evolving =
-            evolution.map(|((rule, collected), slipped)| Evolving::new(rule, friction(), slipped, collected));
-        let surfaces = Surfaces { wearing, upper, debris, evolving, integration: case.integration };
+        let friction_of_upper = case.kinematics.friction_of_upper && plan.moves;
+        let evolving = evolution.map(|((rule, collected), slipped)| {
+            let frame = friction_of_upper.then(|| UpperFrame::of(plan));
+            Evolving::new(rule, friction(), slipped, collected).in_frame(frame)
+        });
+        let integration = case.integration;
+        let surfaces = Surfaces { wearing, upper, friction_of_upper, debris, evolving, integration };
         solver.set_tilt(state.tilt);
         // Last: a new gap makes a solver forget.
         solver.restore_memory(memory);

@@ -5,15 +5,28 @@ use ndarray::{Array2, Zip};
 use crate::model::{AccumulatedSlip, ContactState, CoulombFriction, Integration, WearLaw, WearRule};
 use crate::solver::{dissipation, friction_bounds, length_of_way};
 
-/// Adds what slips between two states that follow each other under a friction law.
+/// Adds what slips between two states that follow each other, each under the friction law that lay over the grid in it.
 pub fn add_slip(
     states: [&ContactState; 2],
     integration: Integration,
-    friction: &CoulombFriction,
+    laws: [&CoulombFriction; 2],
     to: &mut AccumulatedSlip,
 ) {
-    add_dissipation(states, integration, friction, 1.0, &mut to.energy_density);
+    add_dissipation(states, integration, laws, 1.0, &mut to.energy_density);
     add_path(states, integration, &mut to.distance);
+}
+
+/// What [`add_slip`] adds, by what each of both states has a part in: the pressure there, and half of the way.
+pub fn slip_by_ends(
+    states: [&ContactState; 2],
+    integration: Integration,
+    laws: [&CoulombFriction; 2],
+) -> [AccumulatedSlip; 2] {
+    let half = ways(states, integration) * 0.5;
+    [0, 1].map(|end| {
+        let bounds = friction_bounds(laws[end], &states[end].pressure);
+        AccumulatedSlip { energy_density: bounds * &half, distance: half.clone(), cycles: 0 }
+    })
 }
 
 /// Adds the length of the slip path [length] between two states that follow each other.
@@ -39,11 +52,11 @@ fn ways([before, after]: [&ContactState; 2], integration: Integration) -> Array2
 fn add_dissipation(
     states: [&ContactState; 2],
     integration: Integration,
-    friction: &CoulombFriction,
+    laws: [&CoulombFriction; 2],
     factor: f64,
     energy: &mut Array2<f64>,
 ) {
-    let [first, last] = states.map(|state| friction_bounds(friction, &state.pressure));
+    let [first, last] = [0, 1].map(|end| friction_bounds(laws[end], &states[end].pressure));
     let ways = ways(states, integration);
     Zip::from(energy).and(&first).and(&last).and(&ways).for_each(|energy, first, last, way| {
         *energy += factor * dissipation([*first, *last], *way);
@@ -54,14 +67,14 @@ fn add_dissipation(
 pub fn wear_by_ends(
     states: [&ContactState; 2],
     integration: Integration,
-    friction: &CoulombFriction,
+    laws: [&CoulombFriction; 2],
     rule: &WearRule,
 ) -> [Array2<f64>; 2] {
     let k = rule.coefficient.unwrap_or(1.0);
     let ways = ways(states, integration);
     [0, 1].map(|end| {
         let bounds = match rule.law {
-            WearLaw::Energy => friction_bounds(friction, &states[end].pressure),
+            WearLaw::Energy => friction_bounds(laws[end], &states[end].pressure),
             WearLaw::Archard => states[end].pressure.clone(),
         };
         let mut worn = bounds;
@@ -75,18 +88,18 @@ pub fn path(states: [&ContactState; 2], integration: Integration) -> Array2<f64>
     ways(states, integration)
 }
 
-/// Adds the depth [length] worn between two states that follow each other under a friction law; where each layer has a coefficient of
+/// Adds the depth [length] worn between two states that follow each other, each under its friction law; where each layer has a coefficient of
 /// its own, the work by area [pressure x length] that they wear by. Cells that stick at both ends have no slip.
 pub fn add_wear(
     states: [&ContactState; 2],
     integration: Integration,
-    friction: &CoulombFriction,
+    laws: [&CoulombFriction; 2],
     rule: &WearRule,
     depth: &mut Array2<f64>,
 ) {
     let k = rule.coefficient.unwrap_or(1.0);
     match rule.law {
-        WearLaw::Energy => add_dissipation(states, integration, friction, k, depth),
+        WearLaw::Energy => add_dissipation(states, integration, laws, k, depth),
         WearLaw::Archard => {
             let ways = ways(states, integration);
             Zip::from(depth).and(&states[0].pressure).and(&states[1].pressure).and(&ways).for_each(

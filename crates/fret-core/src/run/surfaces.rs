@@ -5,8 +5,9 @@ use ndarray::Array2;
 
 use super::debris::{CollectedDebris, Debris, OneCycle};
 use super::evolving::{CollectedSlip, Evolved, Evolving};
+use super::upper_frame::UpperFrame;
 use super::wear::{self, Collected, TooFast, Wearing};
-use crate::model::{ContactState, CoulombFriction, Integration, Motion};
+use crate::model::{CellValues, ContactState, CoulombFriction, Integration};
 use crate::solver::SolveError;
 
 /// Surfaces that may change by slip.
@@ -14,8 +15,10 @@ use crate::solver::SolveError;
 pub struct Surfaces {
     /// Their wear, where they wear; that of the lower body alone, where they move against each other.
     pub wearing: Option<Wearing>,
-    /// Wear of the upper body in its own frame, where they move against each other; how it moves, and whether the surfaces repeat.
-    pub upper: Option<(Wearing, (Motion, bool))>,
+    /// Wear of the upper body in its own frame, where they move against each other; and how it moves.
+    pub upper: Option<(Wearing, UpperFrame)>,
+    /// Whether a friction map is the upper body's, and moves with it.
+    pub friction_of_upper: bool,
     /// What becomes of worn material, where some of it stays between them.
     pub debris: Option<Debris>,
     /// Their friction, where it evolves.
@@ -85,22 +88,22 @@ impl Block {
 }
 
 impl Surfaces {
-    /// Adds the slip between two states that follow each other.
+    /// Adds the slip between two states that follow each other, each under the friction law that lay over the grid in it.
     ///
     /// # Errors
-    /// When the wear of the upper body leaves the grid.
-    pub fn add(&mut self, before: &ContactState, after: &ContactState) -> Result<(), SolveError> {
-        if let Some((upper, motion)) = &mut self.upper {
-            let worn = upper.add_in_frame([before, after], self.integration, *motion)?;
+    /// When wear or slip of the upper body leaves the grid.
+    pub fn add(&mut self, states: [&ContactState; 2], laws: [&CoulombFriction; 2]) -> Result<(), SolveError> {
+        if let Some((upper, frame)) = &mut self.upper {
+            let worn = upper.add_in_frame(states, laws, (self.integration, *frame))?;
             if let Some(debris) = &mut self.debris {
                 debris.add_above(worn.each_ref());
             }
         }
         if let Some(wearing) = &mut self.wearing {
-            wearing.add([before, after], self.integration);
+            wearing.add(states, laws, self.integration);
         }
         if let Some(evolving) = &mut self.evolving {
-            evolving.add([before, after], self.integration);
+            evolving.add(states, laws, self.integration)?;
         }
         Ok(())
     }
@@ -114,12 +117,11 @@ impl Surfaces {
         self.each_wearing().for_each(Wearing::begin_stage);
     }
 
-    /// The friction law that the case has for the stage at work, unless friction evolves: that by which the surfaces wear.
+    /// The friction law of the stage at work, over the grid where the body that it belongs to lies without a shift: it bounds what a cycle may
+    /// wear. Of bodies that move, what cells of the one pass under maps of the other is at most their largest coefficient.
     pub fn take_friction(&mut self, friction: &CoulombFriction) {
-        let Self { wearing, upper, evolving, .. } = self;
-        for wearing in wearing.iter_mut().chain(upper.as_mut().map(|(upper, _)| upper)) {
-            wearing.set_friction(evolving.as_ref().map_or(friction, Evolving::friction));
-        }
+        let Self { wearing, upper, friction_of_upper, .. } = self;
+        bound_wear((wearing.as_mut(), upper.as_mut().map(|(upper, _)| upper)), friction, *friction_of_upper);
     }
 
     /// What slip has done since the surfaces changed last.
@@ -147,7 +149,7 @@ impl Surfaces {
         state: &mut ContactState,
         (most, of_cycle): (usize, bool),
     ) -> Result<Block, TooFast> {
-        let Self { wearing, upper, debris, evolving, .. } = self;
+        let Self { wearing, upper, debris, evolving, friction_of_upper, .. } = self;
         let mut upper = upper.as_mut().map(|(upper, _)| upper);
         let mut most = most;
         if wearing.is_none() && evolving.is_none() {
@@ -203,10 +205,22 @@ impl Surfaces {
         }
         if let (Some(evolving), Some(slipped)) = (evolving, &mut state.accumulated) {
             block.evolved = Some(evolving.advance(slipped, block.cycles));
-            for wearing in wearing.iter_mut().chain(upper) {
-                wearing.set_friction(evolving.friction());
-            }
+            bound_wear((wearing.as_mut(), upper), evolving.friction(), *friction_of_upper);
         }
         Ok(block)
+    }
+}
+
+/// Bounds the wear of the lower and the upper body by a friction law over the grid where the body that it belongs to lies without a shift.
+fn bound_wear(
+    (lower, upper): (Option<&mut Wearing>, Option<&mut Wearing>),
+    friction: &CoulombFriction,
+    of_upper: bool,
+) {
+    let moves = upper.is_some() && friction.is_map();
+    let largest = || friction.with_coefficient(CellValues::Uniform(friction.largest()));
+    for (wearing, is_own) in [(lower, !of_upper), (upper, of_upper)] {
+        let Some(wearing) = wearing else { continue };
+        if moves && !is_own { wearing.set_friction(&largest()) } else { wearing.set_friction(friction) }
     }
 }

@@ -6,9 +6,10 @@ use serde::{Deserialize, Serialize};
 use super::rim::OpenRim;
 use super::slip_increment::{add_path, add_wear, path, wear_by_ends};
 use super::stiffest_wave::StiffestWave;
-use crate::fields::{Outside, stored};
+use super::upper_frame::UpperFrame;
+use crate::fields::stored;
 use crate::history::DebrisRecord;
-use crate::model::{ContactState, CoulombFriction, Integration, Motion, WearLaw, WearLayers, WearRule};
+use crate::model::{ContactState, CoulombFriction, Integration, WearLaw, WearLayers, WearRule};
 use crate::plan::Plan;
 use crate::solver::SolveError;
 
@@ -117,7 +118,7 @@ pub struct Wearing {
     stiffest: StiffestWave,
     /// Gap of the unworn surfaces [length].
     unworn: Array2<f64>,
-    /// Friction law in force.
+    /// Friction law that bounds what the body loses in a cycle: that of its own cells, or one that no cell exceeds.
     friction: CoulombFriction,
     /// Part of the wear coefficient that is in force in each cell, where that depends on the rim of the contact.
     rim: Option<OpenRim>,
@@ -155,7 +156,7 @@ impl Wearing {
         Self { rim, ..self }
     }
 
-    /// Another friction law from now on.
+    /// Another friction law from now on, of the body's own cells, or one that none of them exceeds.
     pub fn set_friction(&mut self, friction: &CoulombFriction) {
         self.friction.clone_from(friction);
     }
@@ -183,21 +184,26 @@ impl Wearing {
         gap
     }
 
-    /// Adds the wear between two states that follow each other.
-    pub fn add(&mut self, states: [&ContactState; 2], integration: Integration) {
+    /// Adds the wear between two states that follow each other, each under the friction law that lay over the grid in it.
+    pub fn add(&mut self, states: [&ContactState; 2], laws: [&CoulombFriction; 2], integration: Integration) {
         if self.rim.is_some() {
-            for worn in self.by_ends(states, integration) {
+            for worn in self.by_ends(states, laws, integration) {
                 self.collected.wear += &worn;
             }
         } else {
-            add_wear(states, integration, &self.friction, &self.rule, &mut self.collected.wear);
+            add_wear(states, integration, laws, &self.rule, &mut self.collected.wear);
         }
         add_path(states, integration, &mut self.collected.path);
     }
 
     /// The wear between two states that follow each other, by what each of them has a part in.
-    fn by_ends(&self, states: [&ContactState; 2], integration: Integration) -> [Array2<f64>; 2] {
-        let mut worn = wear_by_ends(states, integration, &self.friction, &self.rule);
+    fn by_ends(
+        &self,
+        states: [&ContactState; 2],
+        laws: [&CoulombFriction; 2],
+        integration: Integration,
+    ) -> [Array2<f64>; 2] {
+        let mut worn = wear_by_ends(states, integration, laws, &self.rule);
         if let Some(rim) = &self.rim {
             for (worn, state) in worn.iter_mut().zip(states) {
                 *worn *= &rim.factors(&state.pressure);
@@ -214,19 +220,14 @@ impl Wearing {
     pub fn add_in_frame(
         &mut self,
         states: [&ContactState; 2],
-        integration: Integration,
-        (motion, repeats): (Motion, bool),
+        laws: [&CoulombFriction; 2],
+        (integration, frame): (Integration, UpperFrame),
     ) -> Result<[Array2<f64>; 2], SolveError> {
-        let outside = if repeats { Outside::Repeats } else { Outside::Zero };
-        let back = states.map(|state| motion.back_from(motion.place(state.shift, state.twist)));
-        let worn = self.by_ends(states, integration);
-        for (worn, back) in worn.iter().zip(back) {
-            if !repeats && back.leaves(worn) {
-                return Err(SolveError::ContactAtEdge);
-            }
-            self.collected.wear += &back.of(worn, outside);
+        let worn = self.by_ends(states, laws, integration);
+        for (worn, state) in worn.iter().zip(states) {
+            frame.collect(worn, state, &mut self.collected.wear)?;
         }
-        self.collected.path += &back[1].of(&path(states, integration), outside);
+        self.collected.path += &frame.brought_back(&path(states, integration), states[1]);
         Ok(worn)
     }
 

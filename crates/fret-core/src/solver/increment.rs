@@ -7,6 +7,7 @@ use super::coupled;
 use super::energy::StateBefore;
 use super::increment_problem::{IncrementProblem, Solved};
 use super::laws::complementarity::CellLaw;
+use super::laws::friction::FrictionLaw;
 use super::laws::limit::sliding_fraction;
 use super::linear::preconditioner::CellWaves;
 use super::memory::{Before, Drift, GridTractions, LastIncrement};
@@ -114,6 +115,8 @@ impl ContactSolver<'_> {
             bodies,
             region,
         );
+        increment.friction_before =
+            self.friction_before.as_ref().map(|law| FrictionLaw::in_region(law, region));
         increment.pauses = self.pauses(load);
         increment.travels = self.travel > 0;
         increment.carried = self.carried.as_ref().map(|carried| region.gather_tangential(carried));

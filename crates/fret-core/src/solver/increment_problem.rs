@@ -43,6 +43,8 @@ pub struct IncrementProblem<'a> {
     /// How pressure and shear act on each other.
     pub coupling: Coupling,
     pub friction: FrictionLaw,
+    /// That of the state before, where maps have moved since then.
+    pub friction_before: Option<FrictionLaw>,
     pub positions: CellPositions,
     /// Gap before deformation [length], and the tilt of the upper body in it.
     pub undeformed: Vec<f64>,
@@ -107,6 +109,7 @@ impl<'a> IncrementProblem<'a> {
             region,
             coupling,
             friction: FrictionLaw::in_region(friction, region),
+            friction_before: None,
             undeformed: region.gather(undeformed),
             tilt,
             normal: NormalLoad::new(state, load, rig, [positions.length, area]),

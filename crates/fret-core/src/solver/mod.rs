@@ -90,6 +90,8 @@ pub struct ContactSolver<'a> {
     grid: SurfaceGrid,
     undeformed: Array2<f64>,
     friction: Cow<'a, CoulombFriction>,
+    /// The law over the grid in the state before an increment, where its maps have moved since then.
+    friction_before: Option<CoulombFriction>,
     coupling: Coupling,
     response: HeldResponse<'a>,
     settings: SolverSettings,
@@ -155,6 +157,7 @@ impl<'a> ContactSolver<'a> {
             grid,
             undeformed,
             friction: Cow::Borrowed(friction),
+            friction_before: None,
             coupling,
             response: HeldResponse::Kept(response),
             settings,
@@ -269,6 +272,18 @@ impl<'a> ContactSolver<'a> {
     /// Another friction law from the next increment on.
     pub fn set_friction(&mut self, friction: Cow<'a, CoulombFriction>) {
         self.friction = friction;
+        self.friction_before = None;
+    }
+
+    /// The law over the grid in the state before the next increments, where its maps move in them: what slips dissipates under the mean of the
+    /// bounds at both ends.
+    pub fn set_friction_before(&mut self, friction: Option<CoulombFriction>) {
+        self.friction_before = friction;
+    }
+
+    /// The laws over the grid before and after the last increment.
+    pub fn laws(&self) -> [&CoulombFriction; 2] {
+        [self.friction_before.as_ref().unwrap_or(&self.friction), &self.friction]
     }
 
     /// Friction has changed at once, between the last increment and the next, which does not go on from those before.

@@ -26,12 +26,12 @@ pub(super) fn state_after(
     let IncrementProblem { grid, region, state: before, .. } = *problem;
     let pressure = &solved.tractions.pressure;
     let contact = ContactSet::loaded(pressure);
-    let law = problem.friction.packed(&contact);
-    let bound = law.bound(&contact.packed(pressure)).bound;
-    let bound_before = law.bound(&contact.packed(&region.gathered(&before.pressure))).bound;
+    let bound = problem.friction.packed(&contact).bound(&contact.packed(pressure)).bound;
+    let law_before = problem.friction_before.as_ref().unwrap_or(&problem.friction);
+    let of_before = contact.packed(&region.gathered(&before.pressure));
+    let bound_before = law_before.packed(&contact).bound(&of_before).bound;
     let shear = contact.packed_tangential(&solved.tractions.shear);
-    let slip = contact.packed_tangential(&solution.slip);
-    let end_slip = contact.packed_tangential(&solution.end_slip);
+    let [slip, end_slip] = [&solution.slip, &solution.end_slip].map(|field| contact.packed_tangential(field));
     let mut state = tractions_and_motions(problem, solved);
     let mut stick_cells = 0;
     let mut moment = 0.0;
@@ -83,8 +83,7 @@ pub(super) fn state_after(
         if shear == [0.0; 2] {
             continue;
         }
-        let (bound, _) = problem.friction.at(cell, before.pressure[at]);
-        let drift = solved.drift.at(cell);
+        let ((bound, _), drift) = (law_before.at(cell, before.pressure[at]), solved.drift.at(cell));
         let slip = if problem.travels { drift } else { slip_until_open(drift, shear, bound) };
         for axis in 0..2 {
             state.slip[axis][at] += slip[axis];
