@@ -1,6 +1,5 @@
 //! The judgement of a case that has the right structure: ranges, contradictions, and words for what is not built yet.
 
-use super::arrays::Cells;
 use super::attachments::Attachments;
 use super::beyond::beyond;
 use super::bodies::bodies;
@@ -29,6 +28,7 @@ use super::wearing::wear;
 use crate::document::{At, Mistake, Places};
 use crate::model::stage::Stage;
 use crate::model::{CoulombFriction, Dimension, Displacement, Profile, Shape};
+use crate::topography::Cells;
 use crate::units::Units;
 
 /// Cells along one side of the grid, at the least.
@@ -44,8 +44,7 @@ const LONGEST_CELL: f64 = 1e6;
 /// Residual asked for when the case does not say.
 const TOLERANCE: f64 = 1e-8;
 
-/// The case of a file, or everything that is wrong with it; `is_whole`: nothing in it stands for what was refused before, so that one
-/// entry can be judged by another.
+/// The case of a file, or everything that is wrong with it.
 pub(super) fn case(
     file: CaseFile,
     (name, text): (&str, &str),

@@ -17,8 +17,9 @@ pub(super) fn conduction(
     (friction, periodic): (Option<&[&CoulombFriction]>, Periodicity),
 ) -> Conduction {
     let before = judge.mistakes.len();
-    let mut of = |constant| bodies.map(|body| conductor(judge, body, constant));
-    let [thermal, electrical] = [Constant::ThermalConductivity, Constant::ElectricalResistivity].map(&mut of);
+    let thermal = bodies.map(|body| conductor(judge, body, &Constant::THERMAL_CONDUCTIVITY, |own| own));
+    let electrical =
+        bodies.map(|body| conductor(judge, body, &Constant::ELECTRICAL_RESISTIVITY, |own| 1.0 / own));
     let frequency = table.map(|table| table.frequency);
     let conduction = Conduction { thermal, electrical, frequency };
     let Some(table) = table else { return conduction };
@@ -78,8 +79,7 @@ fn without_meaning(
         ));
     }
     let kept = output.is_none_or(|output| {
-        let keeps = |name: &str| output.fields.iter().any(|field| field == name);
-        output.every == Some(1) && keeps("pressure") && keeps("shear") && keeps("slip")
+        output.every == Some(1) && ["pressure", "shear", "slip"].iter().all(|name| output.keeps(name))
     });
     (!kept).then_some((
         "the heat of a cycle is made of the tractions and the slip of all its increments, which are not kept",
@@ -87,18 +87,18 @@ fn without_meaning(
     ))
 }
 
-/// The conductor that a body is by one constant; `None` where no layer has it, or it was refused.
-fn conductor(judge: &mut Judge, body: NamedBody<'_>, constant: Constant) -> Option<Conductor> {
+/// The conductor that a body is by a constant, which says its `conductivity`; `None` where no layer has it, or it was refused.
+fn conductor(
+    judge: &mut Judge,
+    body: NamedBody<'_>,
+    constant: &Constant,
+    conductivity: fn(f64) -> f64,
+) -> Option<Conductor> {
     let mut parts = constant.values(judge, body, None, "of all layers and what they lie on, or of none")?;
-    if constant == Constant::ElectricalResistivity {
-        for (_, value) in &mut parts {
-            *value = 1.0 / *value;
-        }
-    }
     let (_, base) = parts.pop()?;
-    let layer = |(thickness, conductivity)| ConductingLayer { thickness, conductivity };
+    let layer = |(thickness, own)| ConductingLayer { thickness, conductivity: conductivity(own) };
     // a thickness is refused where the bodies are judged
-    Conductor::new(parts.into_iter().map(layer).collect(), base).ok()
+    Conductor::new(parts.into_iter().map(layer).collect(), conductivity(base)).ok()
 }
 
 #[cfg(test)]

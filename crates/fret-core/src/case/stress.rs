@@ -88,15 +88,12 @@ pub(super) fn stress(
             }
         },
     };
-    if let Some(output) = output {
-        let keeps = |name: &str| output.fields.iter().any(|field| field == name);
-        if !keeps("pressure") || !(frictionless || keeps("shear")) {
-            judge.refuse::<()>(
-                table.span(),
-                "stress: the tractions are not kept, from which stresses are made",
-                "output.fields = [\"pressure\", \"shear\", ...]",
-            );
-        }
+    if output.is_some_and(|output| !output.keeps("pressure") || !(frictionless || output.keeps("shear"))) {
+        judge.refuse::<()>(
+            table.span(),
+            "stress: the tractions are not kept, from which stresses are made",
+            "output.fields = [\"pressure\", \"shear\", ...]",
+        );
     }
     let fatigue = FatigueConstants {
         yield_strength: file.yield_strength,

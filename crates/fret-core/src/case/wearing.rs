@@ -4,7 +4,7 @@ use super::evolution::changing_cycles;
 use super::file::StressFile;
 use super::judge::Judge;
 use super::parts::{Constant, NamedBody};
-use super::stage_file::{WearFile, WornBodyFile};
+use super::stage_file::WearFile;
 use super::third_body::third_body;
 use crate::document::At;
 use crate::model::stage::Stage;
@@ -24,10 +24,10 @@ pub(super) fn wear(
     let before = judge.mistakes.len();
     let layers = files.map(|body| {
         let help = "of all layers and what they lie on, or of none; 0 of one that does not wear";
-        let parts = Constant::WearCoefficient.values(judge, body, Some(0.0), help)?;
+        let parts = Constant::WEAR_COEFFICIENT.values(judge, body, Some(0.0), help)?;
         Some(parts.into_iter().map(|(thickness, coefficient)| WornLayer { thickness, coefficient }).collect())
     });
-    let own = files.into_iter().find_map(|body| Constant::WearCoefficient.first(body));
+    let own = files.into_iter().find_map(|body| Constant::WEAR_COEFFICIENT.first(body));
     let Some(given) = given else {
         return own.and_then(|own| {
             judge.refuse(own, "wear_coefficient without a table [wear]", "[wear] law = \"energy\"")
@@ -100,69 +100,51 @@ fn limit(
 ) -> Option<f64> {
     match (&file.limit, &file.through_coating_of) {
         (None, None) => None,
-        (Some(limit), Some(_)) => judge.refuse(
-            limit.span(),
-            "wear: limit and through_coating_of, both at once",
-            "one of the two ends the run",
-        ),
+        (Some(limit), Some(_)) => {
+            judge.both_or(limit.span(), "wear: limit and through_coating_of", "one of the two ends the run")
+        }
         (Some(limit), None) => Some(limit.value),
         (None, Some(which)) => {
-            let bodies = bodies?;
-            let (number, body) = match &which.value {
-                WornBodyFile::Lower => (0, bodies.lower()),
-                WornBodyFile::Upper => (1, bodies.upper()),
-            };
+            let number = which.value.number();
+            let body = [bodies?.lower(), bodies?.upper()][number];
             let coated = matches!(body, Body::Elastic(half_space) if !half_space.coatings().is_empty());
-            // As it is written: a graded one is many layers in the half-space.
-            let written = files[number].1.coatings.as_ref().and_then(|list| list.value.first());
-            let Some(written) = written.filter(|_| coated) else {
+            let Some(thickness) = outermost(files, number).filter(|_| coated) else {
                 return judge.refuse(
                     which.span(),
                     "wear.through_coating_of: this body has no coating",
                     "wear.limit = ... ends the run at a depth of your choice",
                 );
             };
-            let thickness = written.thickness.value;
-            let Some(layers) = layers else { return Some(thickness) };
-            match layers.when_body_has_lost(number, thickness) {
-                Some(worn) => Some(worn.depth()),
-                None => judge.refuse(
+            WearLayers::depth_when_lost(layers, number, thickness).or_else(|| {
+                judge.refuse(
                     which.span(),
                     "wear.through_coating_of: this coating does not wear",
                     "a positive wear_coefficient of this coating",
-                ),
-            }
+                )
+            })
         }
     }
+}
+
+/// Thickness of the outermost coating of a body, as it is written: a graded one is many layers in the half-space.
+fn outermost(files: [NamedBody<'_>; 2], body: usize) -> Option<f64> {
+    Some(files[body].1.coatings.as_ref()?.value.first()?.thickness.value)
 }
 
 /// The depths of one body alone that a run looks for; `limit`: where the case has one, of both bodies together.
 fn own_depths(body: usize, file: &WearFile, files: [NamedBody<'_>; 2], limit: Option<f64>) -> OwnDepths {
-    let written = files[body].1.coatings.as_ref().and_then(|list| list.value.first());
-    let coating = written.map(|written| written.thickness.value);
-    let named = match file.through_coating_of.as_ref().map(|which| which.value) {
-        Some(WornBodyFile::Lower) => Some(0),
-        Some(WornBodyFile::Upper) => Some(1),
-        None => None,
+    let coating = outermost(files, body);
+    let limit = match &file.through_coating_of {
+        Some(which) => coating.filter(|_| which.value.number() == body),
+        None => limit,
     };
-    OwnDepths {
-        limit: if named.is_some() { coating.filter(|_| named == Some(body)) } else { limit },
-        coating,
-    }
+    OwnDepths { limit, coating }
 }
 
-/// Depth off both bodies together at which the first of their outermost coatings is gone [length]; of one coefficient for both bodies
-/// that depth is taken for the coated body's. `None` without coatings that wear.
+/// Depth off both bodies together at which the first of their outermost coatings is gone [length]; `None` without coatings that wear.
 fn coating_gone(files: [NamedBody<'_>; 2], layers: Option<&WearLayers>) -> Option<f64> {
-    let of_body = |(number, (_, body)): (usize, &NamedBody<'_>)| {
-        let written = body.coatings.as_ref()?.value.first()?;
-        let thickness = written.thickness.value;
-        match layers {
-            None => Some(thickness),
-            Some(layers) => layers.when_body_has_lost(number, thickness).map(|worn| worn.depth()),
-        }
-    };
-    files.iter().enumerate().filter_map(of_body).reduce(f64::min)
+    let gone = |body| WearLayers::depth_when_lost(layers, body, outermost(files, body)?);
+    (0..2).filter_map(gone).reduce(f64::min)
 }
 
 #[cfg(test)]

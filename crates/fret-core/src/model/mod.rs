@@ -16,6 +16,7 @@ pub mod half_space;
 pub mod heights;
 pub mod interface;
 pub mod kinematics;
+pub mod known_loads;
 pub mod load;
 pub mod mirrored_state;
 pub mod periodicity;
@@ -48,6 +49,7 @@ pub use half_space::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpac
 pub use heights::{Detrend, Heights, HeightsSummary};
 pub use interface::{Interface, InterfaceError};
 pub use kinematics::{Displacement, Frame, Kinematics, MOST_CELLS, Motion, Place, step_towards};
+pub use known_loads::{KnownLoads, walk};
 pub use load::{Control, LoadStep, Reached};
 pub use mirrored_state::MirroredState;
 pub use periodicity::Periodicity;
