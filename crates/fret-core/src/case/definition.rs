@@ -8,9 +8,9 @@ use crate::document::{Mistake, Refusal as CaseError};
 use crate::kernel::uniform_response;
 use crate::model::stage::Stage;
 use crate::model::{
-    Beyond, CellMap, Conduction, ContactPair, CoulombFriction, Dimension, FrictionEvolution, Heights,
-    HeightsSummary, Integration, Kinematics, LoadStep, MapSummary, Periodicity, Profile, ResidualStress, Rig,
-    Scheme, WearRule,
+    Beyond, CellMap, Conduction, ContactPair, CoulombFriction, Dimension, FrictionEvolution, GridSize,
+    Heights, HeightsSummary, Integration, Kinematics, LoadStep, MapSummary, Periodicity, Profile,
+    ResidualStress, Rig, Scheme, WearRule,
 };
 use crate::subsurface::fatigue::LayerConstants;
 use crate::units::Units;
@@ -129,26 +129,6 @@ pub struct Difference {
     pub case: String,
     /// What the state has.
     pub state: String,
-}
-
-/// Side lengths of the grid.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum GridSize {
-    /// Given [length]; of a line contact, the length and the width of one strip.
-    Given([f64; 2]),
-    /// Chosen so that the largest contact of the history fits with a margin.
-    Auto,
-}
-
-impl GridSize {
-    /// The side lengths, where they are given.
-    pub fn given(self) -> Option<[f64; 2]> {
-        match self {
-            Self::Given(sides) => Some(sides),
-            Self::Auto => None,
-        }
-    }
 }
 
 impl<M, H> Case<M, H> {

@@ -52,11 +52,13 @@ pub(super) fn friction(
     }
 }
 
-/// What each stage says about friction, if anything; `None` when something was refused.
+/// What each stage says about friction, if anything: another coefficient; the shear strength of the interface stays that of the `first` law.
+/// `None` when something was refused.
 pub(super) fn of_stages(
     judge: &mut Judge,
     stages: &[At<StageFile>],
     cells: Option<Cells>,
+    first: Option<&CoulombFriction>,
 ) -> Option<Vec<Option<CoulombFriction>>> {
     let mut all = Vec::new();
     for (index, stage) in stages.iter().enumerate() {
@@ -68,7 +70,8 @@ pub(super) fn of_stages(
                 .map(Some),
         });
     }
-    all.into_iter().collect()
+    let (all, first) = (all.into_iter().collect::<Option<Vec<_>>>()?, first?);
+    Some(all.into_iter().map(|change| change.map(|law| law.with_max_shear_of(first))).collect())
 }
 
 /// One number, or one for every cell.

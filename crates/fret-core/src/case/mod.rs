@@ -21,6 +21,7 @@ mod hardness;
 mod interface;
 mod judge;
 mod kinematics;
+mod known;
 mod line;
 mod mean_gap;
 mod misfits;
@@ -46,12 +47,13 @@ pub use crate::document::{
     Mistake, Refusal as CaseError, in_words, printable, refuse_too_long, steers, toml_of,
 };
 pub use crate::machine::files::{content, unreadable};
+pub use crate::model::GridSize;
 pub use crate::model::stage::{Course, Cycles, Path, Stage, StageControl};
 pub(crate) use crate::model::walk;
 pub use crate::model::waveform::{CycleTimes, Waveform};
 pub use crate::topography::{ReadScan, Scan};
 pub use attachments::Attachments;
-pub use definition::{Case, CaseRecord, Difference, GridSize};
+pub use definition::{Case, CaseRecord, Difference};
 pub use file::schema;
 pub use line::DATUM;
 pub use output::{FIELD_NAMES, Output};

@@ -1,34 +1,27 @@
 //! The judgement of wear.
 
 use super::evolution::changing_cycles;
-use super::file::StressFile;
 use super::judge::Judge;
+use super::known::Known;
 use super::parts::{Constant, NamedBody};
 use super::stage_file::WearFile;
 use super::third_body::third_body;
 use crate::document::At;
-use crate::model::stage::Stage;
 use crate::model::{Body, ContactPair, Kinematics, OwnDepths, WearLaw, WearLayers, WearRule, WornLayer};
 
 /// Cycles a computed one may stand for.
 pub(super) const MOST_EVERY: usize = 1_000_000;
 
-/// The wear of a case, whose surfaces move or not and repeat or not; `None` when nothing wears or it was refused.
-pub(super) fn wear(
-    judge: &mut Judge,
-    (given, stress, kinematics): (Option<&At<WearFile>>, Option<&At<StressFile>>, Kinematics),
-    (bodies, files): (Option<&ContactPair>, [NamedBody<'_>; 2]),
-    stages: Option<&[Stage]>,
-    (frictionless, repeats): (bool, bool),
-) -> Option<WearRule> {
-    let before = judge.mistakes.len();
+/// The wear of a case; `None` when nothing wears or it was refused.
+pub(super) fn wear(judge: &mut Judge, known: &Known<'_>, kinematics: Kinematics) -> Option<WearRule> {
+    let (before, files) = (judge.mistakes.len(), known.written());
     let layers = files.map(|body| {
         let help = "of all layers and what they lie on, or of none; 0 of one that does not wear";
         let parts = Constant::WEAR_COEFFICIENT.values(judge, body, Some(0.0), help)?;
         Some(parts.into_iter().map(|(thickness, coefficient)| WornLayer { thickness, coefficient }).collect())
     });
     let own = files.into_iter().find_map(|body| Constant::WEAR_COEFFICIENT.first(body));
-    let Some(given) = given else {
+    let Some(given) = &known.file.wear else {
         return own.and_then(|own| {
             judge.refuse(own, "wear_coefficient without a table [wear]", "[wear] law = \"energy\"")
         });
@@ -53,7 +46,7 @@ pub(super) fn wear(
             "wear.coefficient is that of both bodies together: leave out one of the two",
         ),
         (
-            frictionless.then(|| span.clone()),
+            known.is_frictionless().then(|| span.clone()),
             "wear: a contact without friction has no slip in this model",
             "[friction] coefficient = ...",
         ),
@@ -63,19 +56,19 @@ pub(super) fn wear(
             "wear_coefficient = ... in all layers of the body that wears, in place of wear.coefficient",
         ),
         (
-            stress.map(At::span).filter(|_| thinning.is_some()),
+            known.file.stress.as_ref().map(At::span).filter(|_| thinning.is_some()),
             "stress and wear.thinning_tolerance: stresses below are those of the unworn layers",
             "leave out one of the two",
         ),
     ]);
     let jumping = file.every.as_ref().map_or_else(|| span.clone(), At::span);
-    changing_cycles(judge, jumping, ("wear", "that wears"), every, stages.unwrap_or_default());
+    changing_cycles(judge, jumping, ("wear", "that wears"), every, known.stages.unwrap_or_default());
     let layers = own.is_some().then(|| WearLayers::new(layers.map(Option::unwrap_or_default)));
-    let limit = limit(judge, file, (bodies, files), layers.as_ref());
-    let (debris, rim) = third_body(judge, file, (kinematics, repeats), layers.as_ref());
+    let limit = limit(judge, file, (known.bodies, files), layers.as_ref());
+    let (debris, rim) = third_body(judge, file, (kinematics, !known.periodic().is_none()), layers.as_ref());
     let own = kinematics.is_finite().then(|| [0, 1].map(|body| own_depths(body, file, files, limit)));
     // where the bodies were refused, a thickness may be no number
-    let coating = bodies.and_then(|_| coating_gone(files, layers.as_ref()));
+    let coating = known.bodies.and_then(|_| coating_gone(files, layers.as_ref()));
     (judge.mistakes.len() == before).then_some(WearRule {
         law: file.law.unwrap_or(WearLaw::Energy),
         coefficient,

@@ -44,7 +44,7 @@ pub use evolution::{Driver, EvolutionDriver, EvolutionLaw, FrictionEvolution};
 pub use formula::Formula;
 pub use friction::{CellMap, CellValues, CoulombFriction, FrictionError, MapSummary};
 pub use graded::{GradedCoating, GradientError, Layer, YoungGradient};
-pub use grid::{GridError, SurfaceGrid};
+pub use grid::{GridError, GridSize, SurfaceGrid};
 pub use half_space::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace, MaterialError};
 pub use heights::{Detrend, Heights, HeightsSummary};
 pub use interface::{Interface, InterfaceError};

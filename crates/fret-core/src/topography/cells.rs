@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use super::question::refuse;
+use super::wrong::refuse;
 use crate::document::Mistake;
 use crate::heights::points;
 use crate::model::Axis;

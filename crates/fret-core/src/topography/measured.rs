@@ -4,8 +4,9 @@ use ndarray::Array2;
 
 use super::cells::{Layout, laid_out, turned};
 use super::keys::ScanSizeFile;
-use super::question::{Measured, Question, SPACING, refuse, wrong};
+use super::question::{Measured, Question, SPACING};
 use super::scan::Scan;
+use super::wrong::{refuse, wrong};
 use crate::document::Mistake;
 use crate::heights::marks::without_marks;
 use crate::heights::points;

@@ -1,7 +1,7 @@
 //! Measured heights on their way to the cells of a grid: read from numbers or from an instrument's file (`content`, `scan`), brought to
 //! the units of the case (`measured`), then, as the case asks (`keys`), treated (`treated`): holes filled (`fill`), a part cut, the trend
-//! removed, filtered (`gaussian`), resampled (`resample`); or numbers that are those of the cells as they come (`cells`). Messages go on
-//! where the key of the heights ends.
+//! removed, filtered (`gaussian`), resampled (`resample`); or numbers that are those of the cells as they come (`cells`). What is wrong
+//! is told by `wrong`.
 
 mod cells;
 mod content;
@@ -10,6 +10,7 @@ mod measured;
 mod question;
 mod scan;
 mod treated;
+mod wrong;
 
 pub use cells::{Cells, Layout, fitting};
 pub use content::{Content, FILL, content};

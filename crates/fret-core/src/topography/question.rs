@@ -1,12 +1,9 @@
 //! Measured heights, and what they are judged with.
 
-use std::fmt::Display;
-
 use ndarray::Array2;
 
 use super::cells::Cells;
 use super::keys::TreatmentFile;
-use crate::document::Mistake;
 use crate::model::Dimension;
 use crate::units::Units;
 
@@ -47,17 +44,4 @@ impl Question<'_> {
     pub fn dimension(&self) -> Dimension {
         Dimension::of(self.cells.count)
     }
-}
-
-/// What is wrong with the heights as a whole.
-pub fn wrong(why: impl Display, help: &str) -> Mistake {
-    Mistake::new(format!(": {why}"), help)
-}
-
-/// The same as a refusal.
-///
-/// # Errors
-/// Always.
-pub fn refuse<T>(why: impl Display, help: &str) -> Result<T, Mistake> {
-    Err(wrong(why, help))
 }

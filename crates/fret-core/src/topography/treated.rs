@@ -4,7 +4,8 @@ use ndarray::{Array2, s};
 
 use super::cells::Cells;
 use super::content::FILL;
-use super::question::{Measured, Question, SPACING, refuse, wrong};
+use super::question::{Measured, Question, SPACING};
+use super::wrong::{refuse, wrong};
 use crate::document::{At, Mistake};
 use crate::heights::points;
 use crate::heights::resample::MeasuredSurface;
@@ -37,7 +38,7 @@ impl Question<'_> {
         self.check_uneven(&measured)?;
         self.filled(&mut measured, &mut record)?;
         if let Some(cut) = &self.keys.cut {
-            self.cut(&mut measured, cut)?;
+            kept(&mut measured, cut)?;
             record.cut = Some(cut.value.clone());
         }
         detrend.remove_from(&mut measured.heights);
@@ -90,39 +91,6 @@ impl Question<'_> {
         let ratio = if ny > 1 { (spacing[0] / spacing[1]).powi(2) } else { 1.0 };
         fill::fill(heights, [1.0, ratio])
             .map_err(|why| wrong(why, "measure again, or choose another channel"))
-    }
-
-    /// Keeps a part of the scan.
-    fn cut(&self, measured: &mut Measured, cut: &At<Vec<[f64; 2]>>) -> Result<(), Mistake> {
-        let refuse = |why: String, help| Err(Mistake::new(format!(".cut: {why}"), help).at(cut.span()));
-        let size = size_for("cut", measured.size)?;
-        let counts = measured.points();
-        let axes = Dimension::of(counts).axes().len();
-        if cut.len() != axes {
-            let why = format!("{} pairs of from and to, wanted {axes}", cut.len());
-            return refuse(why, "cut = [[x from, x to], [y from, y to]]; of a line scan [[from, to]]");
-        }
-        let mut kept = [0..counts[0], 0..counts[1]];
-        let mut sides = size;
-        for (axis, &[from, to]) in cut.iter().enumerate() {
-            let spacing = size[axis] / counts[axis] as f64;
-            let index = |at: f64| (at / spacing).round();
-            let [first, end] = [index(from), index(to)];
-            if !(first >= 0.0 && end >= first + 2.0 && end <= counts[axis] as f64) {
-                let why = format!(
-                    "from {from} to {to} along {}, of a scan of 0 to {} with points {spacing} apart",
-                    ["x", "y"][axis],
-                    size[axis]
-                );
-                return refuse(why, "at least two points inside the scan");
-            }
-            kept[axis] = first as usize..end as usize;
-            sides[axis] = spacing * (end - first);
-        }
-        let [x, y] = kept;
-        measured.heights = measured.heights.slice(s![x, y]).to_owned();
-        measured.size = Some(sides);
-        Ok(())
     }
 
     fn filtered(&self, measured: &mut Measured, record: &mut Treatment) -> Result<(), Mistake> {
@@ -210,6 +178,39 @@ impl Question<'_> {
         }
         Ok(())
     }
+}
+
+/// Keeps a part of the scan.
+fn kept(measured: &mut Measured, cut: &At<Vec<[f64; 2]>>) -> Result<(), Mistake> {
+    let refuse = |why: String, help| Err(Mistake::new(format!(".cut: {why}"), help).at(cut.span()));
+    let size = size_for("cut", measured.size)?;
+    let counts = measured.points();
+    let axes = Dimension::of(counts).axes().len();
+    if cut.len() != axes {
+        let why = format!("{} pairs of from and to, wanted {axes}", cut.len());
+        return refuse(why, "cut = [[x from, x to], [y from, y to]]; of a line scan [[from, to]]");
+    }
+    let mut kept = [0..counts[0], 0..counts[1]];
+    let mut sides = size;
+    for (axis, &[from, to]) in cut.iter().enumerate() {
+        let spacing = size[axis] / counts[axis] as f64;
+        let index = |at: f64| (at / spacing).round();
+        let [first, end] = [index(from), index(to)];
+        if !(first >= 0.0 && end >= first + 2.0 && end <= counts[axis] as f64) {
+            let why = format!(
+                "from {from} to {to} along {}, of a scan of 0 to {} with points {spacing} apart",
+                ["x", "y"][axis],
+                size[axis]
+            );
+            return refuse(why, "at least two points inside the scan");
+        }
+        kept[axis] = first as usize..end as usize;
+        sides[axis] = spacing * (end - first);
+    }
+    let [x, y] = kept;
+    measured.heights = measured.heights.slice(s![x, y]).to_owned();
+    measured.size = Some(sides);
+    Ok(())
 }
 
 /// The size, which something that is asked for needs.
