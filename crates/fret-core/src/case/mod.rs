@@ -33,7 +33,6 @@ mod residual;
 mod rig;
 mod rolling;
 mod shape;
-mod side;
 mod stage_file;
 mod stages;
 mod stress;
@@ -47,10 +46,10 @@ pub use crate::document::{
     Mistake, Refusal as CaseError, in_words, printable, refuse_too_long, steers, toml_of,
 };
 pub use crate::machine::files::{content, unreadable};
-pub use crate::model::GridSize;
 pub use crate::model::stage::{Course, Cycles, Path, Stage, StageControl};
 pub(crate) use crate::model::walk;
 pub use crate::model::waveform::{CycleTimes, Waveform};
+pub use crate::model::{GridSize, Side};
 pub use crate::topography::{ReadScan, Scan};
 pub use attachments::Attachments;
 pub use definition::{Case, CaseRecord, Difference};
@@ -58,6 +57,5 @@ pub use file::schema;
 pub use line::DATUM;
 pub use output::{FIELD_NAMES, Output};
 pub use repeating::CELLS_PER_WAVE;
-pub use side::Side;
 pub(crate) use stages::WAY_TO_SLIDE;
 pub use stress::StressRequest;

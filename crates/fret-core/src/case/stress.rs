@@ -6,9 +6,8 @@ use super::file::DepthsFile;
 use super::judge::Judge;
 use super::known::Known;
 use super::output::Output;
-use super::side::Side;
 use crate::document::At;
-use crate::model::Body;
+use crate::model::{Body, Side};
 use crate::subsurface::depth_points;
 use crate::subsurface::fatigue::FatigueConstants;
 

@@ -5,9 +5,8 @@ use std::borrow::Cow;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
-use super::side::Side;
 use crate::document::{At, Named, Range, Table};
-use crate::model::{Axis, Detrend, EvolutionDriver};
+use crate::model::{Axis, Detrend, EvolutionDriver, Side};
 use crate::topography::TreatmentFile;
 
 /// A length of a shape.
