@@ -220,6 +220,7 @@ def content(name: str, value: str | os.PathLike[str]) -> bytes:
 def needed(library: str, words: str) -> Any:
     """Return a library that may be missing, or say in these words what needs it and how it is installed."""
     try:
+        importlib.import_module(library.partition(".")[0])
         return importlib.import_module(library)
     except ImportError as error:
         raise ImportError(words) from error
