@@ -13,8 +13,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-from fretting import analytic, cycles
-from fretting._meaning import FIELD_NAMES, MEANING
+from fretting import analytic
+from fretting._meaning import CYCLE_MEANING, FIELD_NAMES, MEANING
 
 DOCS = Path(__file__).resolve().parents[1]
 
@@ -107,7 +107,7 @@ def output_files() -> str:
         "## history.csv\n\nAlso `history.increments` in Python. Increments count from 0.\n",
         _table("column", [(name, text) for name, text in MEANING.items() if name not in FIELD_NAMES]),
         "## cycles.csv\n\nAlso `history.cycles` in Python. Definitions: [Fretting quantities](../theory/fretting-quantities.md).\n",
-        _table("column", list(cycles.MEANING.items())),
+        _table("column", list(CYCLE_MEANING.items())),
         "## fields.zarr\n\nAlso `history.field(name, step)`, index `[i, j]` = `[x, y]`. `shear` and `slip` of `[output] fields` are two fields each. Every chunk ends with a checksum (codec `crc32c` of Zarr 3).\n",
         _table("field", [(name, MEANING[name]) for name in FIELD_NAMES]),
         "## run.json\n",

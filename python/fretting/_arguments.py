@@ -5,6 +5,7 @@ of thing, a ``ValueError`` for a value out of its range, an ``UnreadableError`` 
 """
 
 import functools
+import importlib
 import inspect
 import operator
 import os
@@ -214,6 +215,15 @@ def content(name: str, value: str | os.PathLike[str]) -> bytes:
         raise
     except OSError as error:
         raise UnreadableError(f"error: {place}: cannot be read: {error.strerror or error}", str(place)) from None
+
+
+def needed(library: str, words: str) -> Any:
+    """Return a library that may be missing, or say in these words what needs it and how it is installed."""
+    try:
+        importlib.import_module(library.partition(".")[0])
+        return importlib.import_module(library)
+    except ImportError as error:
+        raise ImportError(words) from error
 
 
 def mapping(name: str, value: Any) -> Mapping[Any, Any]:

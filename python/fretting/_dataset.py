@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from fretting import cycles
-from fretting._meaning import FIELD_NAMES, MEANING, ZONE_NAMES, described
+from fretting._arguments import needed
+from fretting._meaning import CYCLE_MEANING, FIELD_NAMES, MEANING, ZONE_NAMES, described
 
 if TYPE_CHECKING:
     import xarray
@@ -17,11 +17,7 @@ if TYPE_CHECKING:
 
 def module(what: str) -> Any:
     """Return xarray, or say what needs it."""
-    try:
-        import xarray
-    except ImportError as error:
-        raise ImportError(f"{what} needs xarray: pip install 'fretting[xarray]'") from error
-    return xarray
+    return needed("xarray", f"{what} needs xarray: pip install 'fretting[xarray]'")
 
 
 def axes(history: "History") -> dict[str, Any]:
@@ -45,12 +41,12 @@ def on_cells(history: "History", values: npt.NDArray[Any], words: str, *before: 
 def place(history: "History", axis: int, cell: float) -> float:
     """Return where a cell, counted from the first and not always whole, lies along an axis; 0 along a line contact."""
     centres = (history.x, history.y)[axis]
-    return float(centres[0]) + cell * history._spacing[axis] if len(centres) > 1 else 0.0
+    return float(centres[0]) + cell * history.plan["grid"]["spacing"][axis] if len(centres) > 1 else 0.0
 
 
 def numbers(history: "History", along: str, values: Iterable[float | None], words: str) -> tuple[Any, ...]:
     """Return a variable of numbers along a dimension; NaN where there is none."""
-    known = np.array([np.nan if value is None else value for value in values], dtype=float)
+    known = np.array(list(values), dtype=float)
     return (along,), known, described(words, history._units)
 
 
@@ -99,7 +95,7 @@ def of_history(history: "History", every: bool) -> "xarray.Dataset":
         coordinates |= _cycle_coordinates(history)
         for name, column in history.cycles.items():
             if name not in ("cycle", "stage"):
-                meaning = described(cycles.MEANING[name], history._units, history.cycles["drive"].tolist())
+                meaning = described(CYCLE_MEANING[name], history._units, history.cycles["drive"].tolist())
                 variables[f"cycle_{name}"] = ("cycle", column, meaning)
     attributes = {"stages": history.stages, "status": history.status}
     dataset: xarray.Dataset = library.Dataset(variables, coords=coordinates, attrs=attributes)
@@ -125,8 +121,8 @@ def _cycle_coordinates(history: "History") -> dict[str, Any]:
             np.arange(len(number)),
             {"long_name": "number of the computed cycle in the history, from 0"},
         ),
-        "cycle_number": ("cycle", number, {"long_name": cycles.MEANING["cycle"]}),
-        "cycle_stage": ("cycle", stage, {"long_name": cycles.MEANING["stage"]}),
+        "cycle_number": ("cycle", number, {"long_name": CYCLE_MEANING["cycle"]}),
+        "cycle_stage": ("cycle", stage, {"long_name": CYCLE_MEANING["stage"]}),
         "cycle_stage_name": ("cycle", _names(history, stage)),
     }
 

@@ -2,9 +2,10 @@
 
 from typing import Any, Protocol
 
+import numpy as np
 import numpy.typing as npt
 
-from fretting._meaning import FIELD_NAMES
+from fretting._meaning import CYCLE_KINDS, FIELD_NAMES
 
 
 class Table(dict[str, npt.NDArray[Any]]):
@@ -17,6 +18,15 @@ class Table(dict[str, npt.NDArray[Any]]):
         raise KeyError(
             f"no column {name!r}; columns are: {', '.join(self)}; fields (history.field): {', '.join(FIELD_NAMES)}"
         )
+
+
+def of_cycles(records: list[dict[str, Any]]) -> Table:
+    """Return records of cycles as one array a name; a missing number is NaN, a missing word empty."""
+    missing: dict[type, object] = {float: np.nan, str: ""}
+    return Table(
+        (name, np.array([missing[kind] if record[name] is None else record[name] for record in records], dtype=kind))
+        for name, kind in CYCLE_KINDS.items()
+    )
 
 
 class Kept(Protocol):

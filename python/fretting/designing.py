@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from fretting import _case
-from fretting._arguments import real, whole
+from fretting._arguments import needed, real, whole
 from fretting._arrays import Reals
 from fretting._limits import Limit, in_words, limit_in_words
 from fretting._points import Table
@@ -131,7 +131,7 @@ def design(
     accuracy, most = real("tolerance", tolerance), whole("iterations", iterations)
     if not 0.0 < accuracy < 1.0 or not 0 < most <= 10_000:
         raise ValueError(f"tolerance = {accuracy}, iterations = {most}: between 0 and 1, and from 1 to 10000")
-    optimize = _scipy()
+    optimize = needed("scipy.optimize", "design needs SciPy: pip install 'fretting[design]', or pip install scipy")
     question.check_grid()
     question.begin()
     margins = {"type": "ineq", "fun": question.margins, "jac": question.slopes_of_margins}
@@ -158,14 +158,6 @@ def design(
             return _answer(question, found, optimize.nnls)
         except SignChangedError:
             continue  # once for each limit at most; what was run is known
-
-
-def _scipy() -> Any:
-    try:
-        from scipy import optimize
-    except ImportError as error:
-        raise ImportError("design needs SciPy: pip install 'fretting[design]', or pip install scipy") from error
-    return optimize
 
 
 def _answer(question: Question, found: Any, nnls: Any) -> Design:

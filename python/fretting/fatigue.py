@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from fretting import _core, _dataset
 from fretting._meaning import described
-from fretting.stress import bulk_stress, coordinates, frictionless, is_upper, on_grid, points, refuse_thinned
+from fretting.stress import bulk_stress, coordinates, frictionless, on_grid, points, refuse_thinned
 
 if TYPE_CHECKING:
     import xarray
@@ -57,7 +57,7 @@ def fatigue(
     """Return fatigue parameters: see :meth:`fretting.History.fatigue`."""
     module = _dataset.module("fatigue")
     chosen, arguments = _cycle(history, cycle, body)
-    answer = _core.fatigue(*arguments, points(depths), _constants(history, constants), threads)
+    answer = _core.fatigue(*arguments, points(depths), _constants(constants), threads)
     variables = {
         name: _dataset.on_cells(history, values, PARAMETERS[name], *("depth",) * (values.ndim - 2))
         for name, values in answer.items()
@@ -101,7 +101,7 @@ def crack(
     """Return the course of a short crack: see :meth:`fretting.History.crack`."""
     module = _dataset.module("crack")
     chosen, arguments = _cycle(history, cycle, body)
-    told = json.loads(_core.crack(*arguments, _constants(history, constants), threads))
+    told = json.loads(_core.crack(*arguments, _constants(constants), threads))
     attributes: dict[str, Any] = {"body": body, "increments": chosen}
     dataset: xarray.Dataset
     if "reason" in told:
@@ -140,7 +140,7 @@ def coating_fracture(
     """Return the cracks of the coating: see :meth:`fretting.History.coating_fracture`."""
     module = _dataset.module("coating_fracture")
     chosen, arguments = _cycle(history, cycle, body)
-    told = json.loads(_core.coating_fracture(*arguments, _constants(history, constants), threads))
+    told = json.loads(_core.coating_fracture(*arguments, _constants(constants), threads))
     cracks = told["cracks"]
 
     of = functools.partial(_dataset.numbers, history, "sense")
@@ -172,8 +172,8 @@ def coating_fracture(
     return dataset
 
 
-def _cycle(history: "History", cycle: int, body: Literal["lower", "upper"]) -> tuple[list[int], tuple[Any, Any, Any]]:
-    """Return the kept increments of a cycle, and bodies, setting and loading for the core."""
+def _cycle(history: "History", cycle: int, body: Literal["lower", "upper"]) -> tuple[list[int], tuple[Any, Any]]:
+    """Return the kept increments of a cycle, and the run with its loading for the core."""
     refuse_thinned(history)
     first, last = _dataset.span(history, cycle)
     chosen = [number for number in history.kept_increments if first - 1 <= number <= last]
@@ -183,8 +183,7 @@ def _cycle(history: "History", cycle: int, body: Literal["lower", "upper"]) -> t
             "([output] every = ... keeps more)"
         )
     increments = [(*_fields(history, number), bulk_stress(history, number, body)) for number in chosen]
-    setting = history._spacing, history._periodic
-    return chosen, ((history._bodies, is_upper(body)), setting, (increments, history._residual_stress))
+    return chosen, ((json.dumps(history.plan), body == "upper"), increments)
 
 
 _Pair = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]
@@ -206,8 +205,6 @@ def _fields(history: "History", number: int) -> tuple[npt.NDArray[np.float64], _
     return on_grid(history, history.field("pressure", number)), shear, vector("slip")
 
 
-def _constants(history: "History", given: "FatigueConstants | None") -> str:
-    """Return the constants as the core reads them: those given, or else those of the case."""
-    case = history.plan["case"]
-    stress = (case.get("stress") or {}).get("fatigue")
-    return json.dumps({"case": case.get("fatigue"), "stress": stress, "given": given})
+def _constants(given: "FatigueConstants | None") -> str | None:
+    """Return the constants as the core reads them; None: those of the case."""
+    return None if given is None else json.dumps(given)

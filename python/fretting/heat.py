@@ -22,11 +22,6 @@ FIELDS = {
 }
 
 
-def _conductors(history: "History", kind: str) -> str:
-    conduction = history.plan["case"].get("conduction") or {kind: [None, None]}
-    return json.dumps(conduction[kind])
-
-
 def temperature(history: "History", cycle: int, frequency: float | None, threads: int | None) -> "xarray.Dataset":
     """Return temperature rises: see :meth:`fretting.History.temperature`."""
     module = _dataset.module("temperature")
@@ -50,8 +45,7 @@ def temperature(history: "History", cycle: int, frequency: float | None, threads
         )
         increments.append((pressure, (parts[0], parts[1]), (parts[2], parts[3])))
     loading = float(history.cycles["dissipated_energy"][cycle]), float(frequency)
-    setting = history._spacing, history._periodic
-    answer = _core.surface_temperature(_conductors(history, "thermal"), setting, increments, loading, threads)
+    answer = _core.surface_temperature(json.dumps(history.plan), increments, loading, threads)
     variables: dict[str, Any] = {
         name: (("y", "x"), answer[name].T, described(meaning, history.units))
         for name, meaning in FIELDS.items()
@@ -66,8 +60,5 @@ def contact_resistance(
     history: "History", increment: int, kind: Literal["electrical", "thermal"], threads: int | None
 ) -> float:
     """Return the resistance of the contact: see :meth:`fretting.History.contact_resistance`."""
-    if kind not in ("electrical", "thermal"):
-        raise ValueError(f"kind = {kind!r}: must be 'electrical' or 'thermal'")
     pressure = on_grid(history, history.field("pressure", increment))
-    setting = history._spacing, history._periodic
-    return _core.contact_resistance(_conductors(history, kind), setting, pressure, threads)
+    return _core.contact_resistance(json.dumps(history.plan), kind == "thermal", pressure, threads)

@@ -14,8 +14,7 @@ from fretting import _core, _dataset, _notebook, differentiating, fatigue, heat,
 from fretting._arguments import checked, of_kind, whole
 from fretting._arrays import Reals
 from fretting._meaning import FIELD_NAMES, VECTORS, FieldName, VectorName
-from fretting._table import Copied, Kept, Table
-from fretting.cycles import Columns, columns
+from fretting._table import Copied, Kept, Table, of_cycles
 from fretting.errors import Fact, UnreadableError
 
 if TYPE_CHECKING:
@@ -100,7 +99,7 @@ class History:
     x: Reals
     y: Reals
     stages: list[str]
-    cycles: Columns
+    cycles: dict[str, npt.NDArray[Any]]
     running_conditions: list[str | None]
     worn_through: dict[str, Any] | None
     worn_by_layer: dict[str, list[float]] | None
@@ -114,39 +113,27 @@ class History:
 
     _folder: Path | None
     _kept: Kept
-    _bodies: str
-    _residual_stress: str
-    _spacing: tuple[float, float]
-    _periodic: bool | str
     _continues = False  # starts from the end of another history
 
     def __init__(self, answer: _core.History, case: dict[str, Any]) -> None:
-        self._take(of_kind("answer", answer, _core.History), json.loads(answer.plan()))
+        self._take(of_kind("answer", answer, _core.History), json.loads(answer.record()))
         self.case = of_kind("case", case, dict)
-        self.version = _core.__version__
         bars = json.loads(answer.error_bars() or "null")
         self.error_bars = None if bars is None or "missing" in bars else bars
-        self.worn_through = json.loads(answer.worn_through())
-        self.worn_by_layer = json.loads(answer.worn_by_layer())
-        self.status = "solved"
-        self.message = None
         self._folder = None
-        self.warnings = json.loads(answer.warnings())
 
-    def _take(self, answer: _core.History | _core.StoredRun, plan: dict[str, Any]) -> None:
+    def _take(self, answer: _core.History | _core.StoredRun, record: dict[str, Any]) -> None:
         """Take what a run in memory and one in a folder have in common."""
-        case = plan["case"]
         self._kept = answer
-        self.plan = plan
+        self.plan = record["plan"]
+        self.version = record["version"]
+        self.status, self.message = record["status"], record.get("message")
+        self.warnings = record["warnings"]
+        self.worn_through, self.worn_by_layer = record.get("worn_through"), record.get("worn_by_layer")
         self.increments = Table((name, np.asarray(column)) for name, column in answer.increments().items())
         self.x, self.y = answer.centres(0), answer.centres(1)
-        self.stages = [stage["name"] for stage in case["stages"]]
-        self._bodies = json.dumps(case["bodies"])
-        self._residual_stress = json.dumps(case.get("residual_stress", [{"layers": []}, {"layers": []}]))
-        dx, dy = plan["grid"]["spacing"]
-        self._spacing = (dx, dy)
-        self._periodic = case["periodic"]
-        self.cycles = Table(columns(json.loads(answer.cycles())))
+        self.stages = [stage["name"] for stage in self.plan["case"]["stages"]]
+        self.cycles = of_cycles(json.loads(answer.cycles()))
         self.running_conditions = json.loads(answer.running_conditions())
 
     def __getstate__(self) -> dict[str, Any]:
@@ -302,8 +289,6 @@ class History:
             raise ValueError("no increment of that stage is solved")
         if point in ("start", "end"):
             return int(rows[0 if point == "start" else -1])
-        if point not in ("maximum", "minimum"):
-            raise ValueError(f"point = {point!r}: must be 'start', 'end', 'maximum' or 'minimum'")
         forces = np.stack([self.increments[f"tangential_force_{axis}"][rows] for axis in "xy"])
         along = forces[np.ptp(forces, axis=1).argmax()]
         if not np.ptp(along) > 0.0:
@@ -337,8 +322,6 @@ class History:
         ImportError
             When xarray is not installed (``pip install fretting[xarray]``).
         """
-        if increments not in ("all", "kept"):
-            raise ValueError(f"increments = {increments!r}: must be 'all' or 'kept'")
         return _dataset.of_history(self, every=increments == "all")
 
     @checked

@@ -83,10 +83,7 @@ class Identification(Fitted):
         for fit in self.fits:
             del fit["parameters"]
         rows = answer["cycles"]
-        self.cycles = {
-            name: np.array([np.nan if row[name] is None else row[name] for row in rows], dtype=float)
-            for name in (rows[0] if rows else {})
-        }
+        self.cycles = {name: np.array([row[name] for row in rows], dtype=float) for name in (rows[0] if rows else {})}
         self.skipped: dict[float, str] = {entry["cycle"]: entry["why"] for entry in answer["skipped"]["cycles"]}
         self.sliding_condition: str = answer["sliding_condition"]
         self.sliding_conditions: list[dict[str, Any]] = [dict(span) for span in answer["sliding_conditions"]]

@@ -49,16 +49,11 @@ def open_results(folder: str | os.PathLike[str]) -> History:
     stored = _core.StoredRun(path)
     record = json.loads(stored.record())
     history = History.__new__(History)
-    history._take(stored, record["plan"])
+    history._take(stored, record)
     history._folder = path.resolve()
     history._continues = record.get("start") is not None
-    history.status, history.message = record["status"], record.get("message")
     history.case = _case(path)
-    history.version = record["version"]
     history.error_bars = _error_bars(path)
-    history.worn_through = record.get("worn_through")
-    history.worn_by_layer = record.get("worn_by_layer")
-    history.warnings = record["warnings"]
     return history
 
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from fretting._arguments import checked, texts
+from fretting._arguments import checked, needed, texts
 from fretting._arguments import variable as _variable
 from fretting._arrays import Reals
 from fretting._bands import band, band_map, loop_band
@@ -199,7 +199,6 @@ def section(
     -------
     matplotlib Axes
     """
-    _component(along)
     if history.is_line:
         if along == "y":
             raise ValueError("along = 'y': nothing changes along the line of a line contact")
@@ -406,11 +405,7 @@ def _with_unit(axis: "xarray.DataArray") -> str:
 
 
 def _pyplot() -> Any:
-    try:
-        from matplotlib import pyplot as plt
-    except ImportError as error:
-        raise ImportError("figures need matplotlib: pip install 'fretting[plot]'") from error
-    return plt
+    return needed("matplotlib.pyplot", "figures need matplotlib: pip install 'fretting[plot]'")
 
 
 def _long_names(line: dict[str, Any]) -> dict[str, Any]:
@@ -434,11 +429,6 @@ def _size(own: tuple[float, float]) -> tuple[float, float]:
     if list(chosen) == list(mpl.rcParamsDefault["figure.figsize"]):
         return own
     return float(chosen[0]), float(chosen[1])
-
-
-def _component(along: str) -> None:
-    if along not in ("x", "y"):
-        raise ValueError(f"along = {along!r}: must be 'x' or 'y'")
 
 
 _LOOPS = {
@@ -466,8 +456,6 @@ def _loop_label(history: "History", column: str) -> str:
 def _loop_columns(history: "History", along: str | None, stage: int | str | None) -> tuple[str, str]:
     """Columns of a loop: motion and force."""
     if along is not None:
-        if along not in _LOOPS:
-            raise ValueError(f"along = {along!r}: must be 'x', 'y' or 'twist'")
         return _LOOPS[along]
     rows = _loop_rows(history, stage)
 

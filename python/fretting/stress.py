@@ -1,5 +1,6 @@
 """Subsurface stress of a history, as a Dataset."""
 
+import json
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -37,7 +38,7 @@ def subsurface(
     """Return stresses and displacements: see :meth:`fretting.History.subsurface`."""
     module = _dataset.module("subsurface")
     refuse_thinned(history)
-    if displacement and (history.is_line or isinstance(history._periodic, str)):
+    if displacement and (history.is_line or isinstance(history.plan["case"]["periodic"], str)):
         raise ValueError(
             "displacement: below a line contact, or another without end along one axis, displacements are not computed"
         )
@@ -46,9 +47,9 @@ def subsurface(
     if not frictionless(history):
         x, y = (on_grid(history, part) for part in history.field("shear", increment))
         shear = (x, y)
-    setting = (history._bodies, is_upper(body)), (history._spacing, history._periodic)
-    even = bulk_stress(history, increment, body), history._residual_stress
-    answer = _core.subsurface_stress(*setting, (pressure, shear), points(depths), even, threads)
+    loads = pressure, shear, None, bulk_stress(history, increment, body)
+    asked = (json.dumps(history.plan), body == "upper"), loads, points(depths), threads
+    answer = _core.subsurface_stress(*asked)
     variables: dict[str, Any] = {
         name: _dataset.on_cells(history, answer[name], f"stress {name}, tension positive [pressure]", "depth")
         for name in COMPONENTS
@@ -63,7 +64,7 @@ def subsurface(
         described("principal stress, tension positive [pressure]", history._units),
     )
     if displacement:
-        moved = _core.subsurface_displacement(*setting, (pressure, shear), points(depths), threads)
+        moved = _core.subsurface_displacement(*asked)
         for name, values in moved.items():
             words = f"displacement of the {body} body along {name[-1]} [length]"
             variables[name] = _dataset.on_cells(history, values, words, "depth")
@@ -106,10 +107,3 @@ def on_grid(history: "History", field: npt.NDArray[Any]) -> npt.NDArray[np.float
 def frictionless(history: "History") -> bool:
     """Tell whether there was never friction, and so no shear."""
     return "frictionless" in history.increments["regime"]
-
-
-def is_upper(body: str) -> bool:
-    """Tell whether the upper body is meant; refuse other words."""
-    if body not in ("lower", "upper"):
-        raise ValueError(f"body = {body!r}: must be 'lower' or 'upper'")
-    return body == "upper"

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from fretting import _case, _core, _start, cycles
-from fretting._arguments import path
-from fretting._meaning import MEANING, described, in_units
+from fretting import _case, _core, _start
+from fretting._arguments import needed, path
+from fretting._meaning import CYCLE_MEANING, MEANING, described, in_units
 from fretting._measuring import UNMEASURED, Measuring, measured, measured_variable
 from fretting._points import Dimension, Draw, Parameters, Point, Table, dimensions, is_uncertain, points
 from fretting._progress import PointLine
@@ -32,6 +32,8 @@ Told: TypeAlias = Callable[[dict[str, Any]], object]
 
 _LENGTH = {"last": None, "stages": "stage", "all": "increment"}
 """Dimension, beside the axes, that the numbers of a history have."""
+
+_NEEDS_XARRAY = "a sweep returns an xarray.Dataset: pip install 'fretting[xarray]'"
 
 
 def sweep(
@@ -137,7 +139,7 @@ def sweep(
     >>> answer["approach"].dims, answer["approach"].shape
     (('load.0.normal_force', 'lower.substrate.poisson'), (2, 3))
     """
-    _import_xarray()
+    needed("xarray", _NEEDS_XARRAY)
     if keep not in _LENGTH:
         raise ValueError(f"keep = {keep!r}: must be one of {', '.join(_LENGTH)}")
     _core.check_threads(threads)
@@ -286,16 +288,14 @@ def _solve_elsewhere(task: _Task, point: tuple[_core.InCommon, int] | None = Non
 
 def _solve(task: _Task, point: tuple[_core.InCommon, int] | None = None) -> _Solved:
     """Solve one point, wherever this is called; only what a person can do something about is caught."""
-    nothing: Table = {"steps": {}, "cycle": {}, "measured": {}, "mistakes": []}
     try:
         history = ended(*_core.run(task.case(), task.asked.threads, None, False, point), json.loads(task.text))
     except CaseError as error:
-        mistakes = [list(mistake) for mistake in error.mistakes]
-        return _Solved({**nothing, "status": "refused", "error": str(error), "mistakes": mistakes})
+        return _Solved(_answer("refused", str(error), mistakes=[list(mistake) for mistake in error.mistakes]))
     except OutOfMemoryError:
         raise  # no answer of the point: there may be room for it another time
     except RunError as error:
-        return _Solved({**nothing, "status": "failed", "error": str(error)})
+        return _Solved(_answer("failed", str(error)))
     rows = _rows(history, task.asked.keep)
     found, failure = {}, None
     if task.asked.measure is not None:
@@ -303,24 +303,23 @@ def _solve(task: _Task, point: tuple[_core.InCommon, int] | None = None) -> _Sol
             found = {name: measured(name, value) for name, value in dict(task.asked.measure(history)).items()}
         except Exception as error:  # a mistake of the function, not of the point
             failure = error
-    answer = {
-        **nothing,
-        "status": "solved",
-        "error": "",
-        "steps": {
-            name: column[rows].tolist()
-            for name, column in history.increments.items()
-            if (column[rows] == column[rows]).all()  # not a number: there is none
-        },
-        "cycle": {
-            name: column[-1].item()
-            for name, column in history.cycles.items()
-            if len(column) and column[-1] == column[-1]  # not a number: there is none
-        },
-        "measured": found,
-        "units": history._units,
+    steps = {
+        name: column[rows].tolist()
+        for name, column in history.increments.items()
+        if (column[rows] == column[rows]).all()  # not a number: there is none
     }
+    cycle = {
+        name: column[-1].item()
+        for name, column in history.cycles.items()
+        if len(column) and column[-1] == column[-1]  # not a number: there is none
+    }
+    answer = _answer("solved", "", steps=steps, cycle=cycle, measured=found, units=history._units)
     return _Solved(answer, failure)
+
+
+def _answer(status: str, error: str, **found: Any) -> Table:
+    """Return what is known of a point, whether solved or not."""
+    return {"status": status, "error": error, "steps": {}, "cycle": {}, "measured": {}, "mistakes": [], **found}
 
 
 def _rows(history: History, keep: Keep) -> npt.NDArray[np.int64]:
@@ -362,8 +361,7 @@ def _solved(
 
 
 def _surprise(error: Exception) -> _Solved:
-    text = f"{type(error).__name__}: {error}"
-    return _Solved({"status": "failed", "error": text, "steps": {}, "cycle": {}, "measured": {}, "mistakes": []})
+    return _Solved(_answer("failed", f"{type(error).__name__}: {error}"))
 
 
 class _Teller:
@@ -396,7 +394,7 @@ class _Teller:
 def _dataset(
     found: list[Dimension], answers: dict[tuple[int, ...], Table], keep: Keep, attributes: dict[str, Any]
 ) -> "xarray.Dataset":
-    module = _import_xarray()
+    module = needed("xarray", _NEEDS_XARRAY)
     names = tuple(dimension.name for dimension in found)
     shape = tuple(len(dimension.changes) for dimension in found)
     variables: dict[str, Any] = {}
@@ -427,7 +425,7 @@ def _dataset(
         for place, answer in answers.items():
             if name in answer["cycle"]:
                 table[place] = answer["cycle"][name]
-        meaning = described(f"last cycle: {cycles.MEANING[name]}", units, drives)
+        meaning = described(f"last cycle: {CYCLE_MEANING[name]}", units, drives)
         variables[f"cycle_{name}"] = (names, table, meaning)
     for name in _all_names(answers, "measured"):
         variables[name] = measured_variable(name, names, shape, answers)
@@ -461,11 +459,3 @@ def _filled(shape: tuple[int, ...], sample: object) -> npt.NDArray[Any]:
     if isinstance(sample, int):
         return np.full(shape, -1, dtype=np.int64)
     return np.full(shape, np.nan)
-
-
-def _import_xarray() -> Any:
-    try:
-        import xarray
-    except ImportError as error:
-        raise ImportError("a sweep returns an xarray.Dataset: pip install 'fretting[xarray]'") from error
-    return xarray

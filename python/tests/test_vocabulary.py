@@ -5,8 +5,8 @@ import re
 from typing import Any, get_args
 
 import fretting
-from fretting import _core, cycles
-from fretting._meaning import CYCLE_KINDS, FIELD_NAMES, MEANING, STEP_KINDS, VECTORS, FieldName
+from fretting import _core
+from fretting._meaning import CYCLE_KINDS, CYCLE_MEANING, FIELD_NAMES, MEANING, STEP_KINDS, VECTORS, FieldName
 
 VOCABULARY = json.loads(_core.vocabulary())
 
@@ -36,4 +36,4 @@ def test_a_solved_history_has_every_column_with_its_type(fretting_case: dict[str
     }
     assert list(history.cycles) == list(CYCLE_KINDS)
     assert set(MEANING) == set(STEP_KINDS) | set(FIELD_NAMES)
-    assert set(cycles.MEANING) == set(CYCLE_KINDS)
+    assert set(CYCLE_MEANING) == set(CYCLE_KINDS)

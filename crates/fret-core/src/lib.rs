@@ -136,6 +136,7 @@ pub mod sensitivity;
 pub mod solver;
 pub mod study;
 pub mod subsurface;
+mod topography;
 pub mod uncertainty;
 pub mod units;
 

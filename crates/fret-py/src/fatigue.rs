@@ -1,122 +1,68 @@
 //! Fatigue of one body over a cycle: parameters under all cells, a short crack, cracks of the coating.
 
-use fret_core::model::{HalfSpace, Periodicity, SurfaceGrid};
 use fret_core::plan::memory_of_stress;
 use fret_core::subsurface::coating_fracture::Film;
 use fret_core::subsurface::crack::crack_course;
 use fret_core::subsurface::crack_path::{CrackStart, NoCrack, crack_path};
-use fret_core::subsurface::fatigue::{FatigueConstants, LayerConstants, Parameter};
+use fret_core::subsurface::fatigue::{LayerConstants, Parameter};
 use fret_core::subsurface::film_stress::{FilmCrack, FilmStress};
 use fret_core::subsurface::severity::{constants_of, material_of};
-use fret_core::subsurface::{DepthPoint, EvenStress, Judged, LoadedSurface, Severity, depth_points, survey};
+use fret_core::subsurface::{DepthPoint, Judged, LoadedSurface, Severity, StressField, depth_points, survey};
+use fret_fft::ConvolutionError;
 use ndarray::{Array2, Array3, Axis};
-use numpy::{IntoPyArray, PyReadonlyArray2};
+use numpy::IntoPyArray;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::{Bound, PyDictMethods, PyResult, Python, pyfunction};
 use pyo3::types::PyDict;
-use serde::Deserialize;
 
 use crate::error::bad_value;
-use crate::repeats::Repeats;
-use crate::subsurface::{half_space_of, residual_of};
+use crate::ran::{Beneath, IncrementArrays, Ran, set_points};
 use crate::threads::{Threads, check_memory, on_pool};
-
-/// Two fields of a vector.
-type VectorArrays<'py> = (PyReadonlyArray2<'py, f64>, PyReadonlyArray2<'py, f64>);
-
-/// Fields of an increment: pressure, shear, slip and the bulk stress of the body.
-type IncrementArrays<'py> =
-    (PyReadonlyArray2<'py, f64>, Option<VectorArrays<'py>>, Option<VectorArrays<'py>>, [f64; 2]);
 
 /// A cycle on a body.
 struct Cycle {
-    half_space: HalfSpace,
-    grid: SurfaceGrid,
-    periodic: Periodicity,
+    body: Beneath,
     surfaces: Vec<LoadedSurface>,
     constants: LayerConstants,
 }
 
-/// Constants as the case has them, of both bodies and of `[stress]`, or as they are given.
-#[derive(Deserialize)]
-struct ConstantsOf {
-    case: Option<[LayerConstants; 2]>,
-    stress: Option<FatigueConstants>,
-    given: Option<FatigueConstants>,
-}
-
-impl ConstantsOf {
-    fn read(text: &str, upper: bool) -> PyResult<LayerConstants> {
-        let constants: Self = serde_json::from_str(text).map_err(bad_value)?;
-        if let Some(given) = constants.given {
-            return match given.fault() {
-                Some((_, what)) => Err(PyValueError::new_err(what)),
-                None => Ok(LayerConstants::everywhere(given)),
-            };
-        }
-        let of_body = constants.case.map(|[of_lower, of_upper]| if upper { of_upper } else { of_lower });
-        Ok(of_body.unwrap_or_default().or(constants.stress.unwrap_or_default()))
-    }
-}
-
 impl Cycle {
-    fn read<'py>(
-        bodies: (&str, bool),
-        (spacing, Repeats(periodic)): ([f64; 2], Repeats),
-        (increments, residual_stress): (Vec<IncrementArrays<'py>>, &str),
-        constants: &str,
+    fn read(
+        (plan, upper): (&str, bool),
+        increments: &[IncrementArrays<'_>],
+        constants: Option<&str>,
     ) -> PyResult<Self> {
-        let residual = residual_of(residual_stress, bodies.1)?;
-        let constants = ConstantsOf::read(constants, bodies.1)?;
-        let (half_space, sign) = half_space_of(bodies)?;
-        let Some(shape) = increments.first().map(|(pressure, ..)| pressure.as_array().dim()) else {
-            return Err(PyValueError::new_err("no increment with kept fields"));
-        };
-        let cells = shape.0 * shape.1;
+        let ran = Ran::read(plan)?;
+        let constants = ran.constants(upper, constants)?;
+        let body = Beneath::of(ran, upper)?;
+        let grid = body.ran.grid();
+        let [nx, ny] = grid.cells();
         check_memory(
-            &format!("{} increments of {} x {} cells", increments.len(), shape.0, shape.1),
-            memory_of_stress(cells, increments.len()),
+            &format!("{} increments of {nx} x {ny} cells", increments.len()),
+            memory_of_stress(grid.len(), increments.len()),
         )?;
-        let vector =
-            |(x, y): &VectorArrays<'py>, sign: f64| [x, y].map(|part| part.as_array().to_owned() * sign);
-        let surfaces: Vec<LoadedSurface> = increments
-            .iter()
-            .enumerate()
-            .map(|(increment, (pressure, shear, slip, bulk))| LoadedSurface {
-                increment,
-                pressure: pressure.as_array().to_owned(),
-                shear: shear.as_ref().map(|shear| vector(shear, sign)),
-                slip: slip.as_ref().map(|slip| vector(slip, 1.0)),
-                even: EvenStress { bulk: *bulk, residual: residual.clone() },
-            })
-            .collect();
-        let is_odd = |field: &Array2<f64>| field.dim() != shape;
-        if surfaces.iter().any(|surface| {
-            is_odd(&surface.pressure) || surface.shear.iter().chain(&surface.slip).flatten().any(is_odd)
-        }) {
-            return Err(PyValueError::new_err(format!(
-                "fields of other shapes than the first pressure, {shape:?}"
-            )));
-        }
-        let grid = SurfaceGrid::new([shape.0, shape.1], spacing).map_err(bad_value)?;
-        Ok(Self { half_space, grid, periodic, surfaces, constants })
+        let surfaces = increments.iter().enumerate().map(|(number, given)| body.surface(number, given));
+        Ok(Self { surfaces: surfaces.collect::<PyResult<_>>()?, body, constants })
     }
 
-    fn judged(&self, points: &[DepthPoint]) -> Result<Judged, fret_fft::ConvolutionError> {
+    /// Hands over the stresses of all surfaces at all points.
+    fn survey(
+        &self,
+        points: &[DepthPoint],
+        mut look: impl FnMut(usize, usize, &StressField),
+    ) -> Result<(), ConvolutionError> {
+        let Beneath { ran, half_space, .. } = &self.body;
+        survey(half_space, ran.grid(), ran.periodic(), points, &self.surfaces, |point, surface, field| {
+            look(point, surface, field);
+            true
+        })
+    }
+
+    fn judged(&self, points: &[DepthPoint]) -> Result<Judged, ConvolutionError> {
         let all = (0..self.surfaces.len()).collect();
-        let mut severity =
-            Severity::new(&self.half_space, &self.constants, points, (&self.surfaces, all), None);
-        survey(
-            &self.half_space,
-            &self.grid,
-            self.periodic,
-            points,
-            &self.surfaces,
-            |point, surface, field| {
-                severity.look(point, surface, field);
-                true
-            },
-        )?;
+        let surfaces = (self.surfaces.as_slice(), all);
+        let mut severity = Severity::new(&self.body.half_space, &self.constants, points, surfaces, None);
+        self.survey(points, |point, surface, field| severity.look(point, surface, field))?;
         Ok(severity.judged())
     }
 
@@ -139,9 +85,9 @@ impl Cycle {
             one.set_item("depth", found.point.depth)?;
             one.set_item("normal", found.normal)?;
             if let Some((_, at)) = judged.at_distance.iter().find(|(of, _)| *of == parameter) {
-                let constants = constants_of(&self.half_space, &self.constants, 0);
+                let constants = constants_of(&self.body.half_space, &self.constants, 0);
                 let cycles = |value: f64| {
-                    material_of(&self.half_space, 0)
+                    material_of(&self.body.half_space, 0)
                         .and_then(|material| parameter.cycles(value, &material, &constants))
                 };
                 for (name, (value, _)) in [("point_method", at.point), ("line_method", at.line)] {
@@ -156,8 +102,8 @@ impl Cycle {
 
     /// Cycles to initiation at the values of a depth; `None` without a law for its layer.
     fn cycles(&self, parameter: Parameter, values: &Array2<f64>, layer: usize) -> Option<Array2<f64>> {
-        let material = material_of(&self.half_space, layer)?;
-        let constants = constants_of(&self.half_space, &self.constants, layer);
+        let material = material_of(&self.body.half_space, layer)?;
+        let constants = constants_of(&self.body.half_space, &self.constants, layer);
         parameter.cycles(0.0, &material, &constants)?;
         Some(values.map(|&value| parameter.cycles(value, &material, &constants).unwrap_or(f64::INFINITY)))
     }
@@ -175,16 +121,15 @@ fn stacked(planes: &[Option<Array2<f64>>]) -> Option<Array3<f64>> {
 #[pyfunction]
 pub fn fatigue<'py>(
     py: Python<'py>,
-    bodies: (&str, bool),
-    setting: ([f64; 2], Repeats),
-    loading: (Vec<IncrementArrays<'py>>, &str),
+    run: (&str, bool),
+    increments: Vec<IncrementArrays<'py>>,
     depths: Vec<f64>,
-    constants: &str,
+    constants: Option<&str>,
     threads: Threads,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let cycle = Cycle::read(bodies, setting, loading, constants)?;
-    let points = depth_points(&cycle.half_space, &depths).map_err(bad_value)?;
-    let cells = cycle.grid.len().saturating_mul(points.len());
+    let cycle = Cycle::read(run, &increments, constants)?;
+    let points = depth_points(&cycle.body.half_space, &depths).map_err(bad_value)?;
+    let cells = cycle.body.ran.grid().len().saturating_mul(points.len());
     check_memory(&format!("{} depths", points.len()), cells.saturating_mul(8 * 2 * Parameter::ALL.len()))?;
     let judged = on_pool(py, threads, || cycle.judged(&points))?.map_err(bad_value)?;
     let items = PyDict::new(py);
@@ -205,9 +150,7 @@ pub fn fatigue<'py>(
         items.set_item("ruiz_f1", ruiz.map(|ruiz| ruiz.f1).into_pyarray(py))?;
         items.set_item("ruiz_f2", ruiz.map(|ruiz| ruiz.f2).into_pyarray(py))?;
     }
-    items.set_item("depth", points.iter().map(|point| point.depth).collect::<Vec<_>>().into_pyarray(py))?;
-    let layers: Vec<i64> = points.iter().map(|point| point.layer as i64).collect();
-    items.set_item("layer", layers.into_pyarray(py))?;
+    set_points(py, &items, &points)?;
     Ok(items)
 }
 
@@ -216,26 +159,26 @@ pub fn fatigue<'py>(
 #[pyfunction]
 pub fn crack<'py>(
     py: Python<'py>,
-    bodies: (&str, bool),
-    setting: ([f64; 2], Repeats),
-    loading: (Vec<IncrementArrays<'py>>, &str),
-    constants: &str,
+    run: (&str, bool),
+    increments: Vec<IncrementArrays<'py>>,
+    constants: Option<&str>,
     threads: Threads,
 ) -> PyResult<String> {
-    let cycle = Cycle::read(bodies, setting, loading, constants)?;
-    let Some(law) = constants_of(&cycle.half_space, &cycle.constants, 0).crack else {
+    let cycle = Cycle::read(run, &increments, constants)?;
+    let Some(law) = constants_of(&cycle.body.half_space, &cycle.constants, 0).crack else {
         let what = "no constants of cracks: \"crack\" of the outermost layer's fatigue constants";
         return Err(PyValueError::new_err(what));
     };
-    let points = depth_points(&cycle.half_space, &[0.0]).map_err(bad_value)?;
+    let points = depth_points(&cycle.body.half_space, &[0.0]).map_err(bad_value)?;
+    let grid = cycle.body.ran.grid();
+    let setting = (grid, cycle.body.ran.periodic());
     let found = on_pool(py, threads, || {
         let judged = cycle.judged(&points)?;
         let severe = judged.at_surface.iter().find(|found| found.parameter == Parameter::SmithWatsonTopper);
         let Some(severe) = severe else { return Err(NoCrack::NoTension) };
-        let start = CrackStart::of(severe, cycle.grid.dimension())?;
-        let setting = (&cycle.grid, cycle.periodic);
-        let path =
-            crack_path(&cycle.half_space, setting, &start, law.final_length, &cycle.surfaces, || true)?;
+        let start = CrackStart::of(severe, grid.dimension())?;
+        let Beneath { half_space, .. } = &cycle.body;
+        let path = crack_path(half_space, setting, &start, law.final_length, &cycle.surfaces, || true)?;
         let course = crack_course(&path, &law);
         Ok((start, course.ok_or(NoCrack::TooInclined(start.angle.to_degrees()))?))
     })?;
@@ -258,33 +201,22 @@ const DEPTHS_OF_COATING: usize = 32;
 #[pyfunction]
 pub fn coating_fracture<'py>(
     py: Python<'py>,
-    bodies: (&str, bool),
-    setting: ([f64; 2], Repeats),
-    loading: (Vec<IncrementArrays<'py>>, &str),
-    constants: &str,
+    run: (&str, bool),
+    increments: Vec<IncrementArrays<'py>>,
+    constants: Option<&str>,
     threads: Threads,
 ) -> PyResult<String> {
-    let cycle = Cycle::read(bodies, setting, loading, constants)?;
-    let Some(film) = Film::outermost(&cycle.half_space) else {
+    let cycle = Cycle::read(run, &increments, constants)?;
+    let Some(film) = Film::outermost(&cycle.body.half_space) else {
         return Err(PyValueError::new_err("no coating that is bonded to something that deforms"));
     };
     let depths: Vec<f64> =
         (0..=DEPTHS_OF_COATING).map(|n| film.thickness() * n as f64 / DEPTHS_OF_COATING as f64).collect();
-    let points = depth_points(&cycle.half_space, &depths).map_err(bad_value)?;
-    let constants = constants_of(&cycle.half_space, &cycle.constants, 0);
-    let fractured = || -> Result<Vec<FilmCrack>, fret_fft::ConvolutionError> {
+    let points = depth_points(&cycle.body.half_space, &depths).map_err(bad_value)?;
+    let constants = constants_of(&cycle.body.half_space, &cycle.constants, 0);
+    let fractured = || -> Result<Vec<FilmCrack>, ConvolutionError> {
         let mut stress = FilmStress::new(film);
-        survey(
-            &cycle.half_space,
-            &cycle.grid,
-            cycle.periodic,
-            &points,
-            &cycle.surfaces,
-            |point, surface, field| {
-                stress.look(points[point], surface, field);
-                true
-            },
-        )?;
+        cycle.survey(&points, |point, surface, field| stress.look(points[point], surface, field))?;
         Ok(stress.most_severe(&constants))
     };
     let cracks = on_pool(py, threads, fractured)?.map_err(bad_value)?;

@@ -82,19 +82,14 @@ impl History {
         serde_json::to_string(&self.solved.cycles).map_err(bad_value)
     }
 
-    /// Where and when the surfaces were first worn through a coating, or to the limit, as JSON text.
-    fn worn_through(&self) -> PyResult<String> {
-        serde_json::to_string(&self.solved.worn_through).map_err(bad_value)
-    }
-
-    /// Volumes lost by the layers of both bodies, as JSON text.
-    fn worn_by_layer(&self) -> PyResult<String> {
-        serde_json::to_string(&self.solved.worn_by_layer).map_err(bad_value)
-    }
-
-    /// What about the numbers may mislead, as JSON text.
-    fn warnings(&self) -> PyResult<String> {
-        serde_json::to_string(&self.solved.warnings).map_err(bad_value)
+    /// What is known of the run as a whole, as JSON text, by the names of the record in a folder of results.
+    fn record(&self) -> String {
+        let history::History { plan, warnings, worn_through, worn_by_layer, .. } = &self.solved;
+        json!({
+            "version": env!("CARGO_PKG_VERSION"), "status": "solved", "plan": plan, "warnings": warnings,
+            "worn_through": worn_through, "worn_by_layer": worn_by_layer,
+        })
+        .to_string()
     }
 
     /// Running condition of each stage's cycles, as JSON text.
@@ -102,11 +97,6 @@ impl History {
         let of = |stage| running_condition(self.solved.cycles.iter().filter(|cycle| cycle.stage == stage));
         let conditions: Vec<_> = (0..self.solved.stages.len()).map(of).collect();
         serde_json::to_string(&conditions).map_err(bad_value)
-    }
-
-    /// The plan, as JSON text.
-    fn plan(&self) -> String {
-        self.solved.plan.to_string()
     }
 
     /// Error bars, as JSON text, where they were asked for.

@@ -17,7 +17,7 @@ mod in_common;
 mod instruments;
 mod kernels;
 mod plan;
-mod repeats;
+mod ran;
 mod simulation;
 mod start;
 mod stored;

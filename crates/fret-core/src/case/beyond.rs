@@ -1,9 +1,8 @@
 //! The judgement of what lies beyond the edge of the grid.
 
-use super::definition::GridSize;
 use super::file::GridFile;
 use super::judge::Judge;
-use crate::model::Beyond;
+use crate::model::{Beyond, GridSize};
 
 /// What lies beyond the edge; refuses a body that ends at an edge that is not known, or that there is none of.
 pub(super) fn beyond(judge: &mut Judge, grid: &GridFile, size: Option<GridSize>) -> Beyond {

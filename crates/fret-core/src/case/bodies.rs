@@ -21,11 +21,7 @@ fn body(judge: &mut Judge, which: &str, given: &At<BodyFile>) -> Option<Body> {
     if body.rigid.as_ref().is_some_and(|rigid| rigid.value) {
         let elastic = ["coatings", "substrate", "base"].map(|key| judge.places.of(&format!("{which}.{key}")));
         return match elastic.into_iter().flatten().next() {
-            Some(span) => judge.refuse(
-                span,
-                format!("{which}: rigid = true and an elastic part, both at once"),
-                "leave out one of the two",
-            ),
+            Some(span) => judge.both(span, &format!("{which}: rigid = true and an elastic part")),
             None => Some(Body::Rigid),
         };
     }
@@ -35,11 +31,9 @@ fn body(judge: &mut Judge, which: &str, given: &At<BodyFile>) -> Option<Body> {
             material(judge, &place, &substrate.value.young, &substrate.value.poisson).map(Base::Elastic)
         }
         (None, Some(_)) => Some(Base::Rigid),
-        (Some(_), Some(base)) => judge.refuse(
-            base.span(),
-            format!("{which}: a substrate and base = \"rigid\", both at once"),
-            "leave out one of the two",
-        ),
+        (Some(_), Some(base)) => {
+            judge.both(base.span(), &format!("{which}: a substrate and base = \"rigid\""))
+        }
         (None, None) => judge.refuse(
             given.span(),
             format!("{which}: nothing says what it is made of"),

@@ -1,12 +1,11 @@
 //! The judgement of a case that has the right structure: ranges, contradictions, and words for what is not built yet.
 
-use super::arrays::Cells;
 use super::attachments::Attachments;
 use super::beyond::beyond;
 use super::bodies::bodies;
 use super::conduction::conduction;
 use super::declared_units::declared_units;
-use super::definition::{Case, GridSize, Origin};
+use super::definition::{Case, Origin};
 use super::evolution::evolution;
 use super::file::{CaseFile, CellsFile, OutputFile, SizeFile};
 use super::friction::{friction, of_stages};
@@ -14,6 +13,7 @@ use super::hardness::hardness;
 use super::interface::sliding_coatings;
 use super::judge::Judge;
 use super::kinematics::{Concerned, kinematics};
+use super::known::Known;
 use super::line::{datum, line, motion_without_datum};
 use super::mean_gap::mean_plane;
 use super::output::{FIELD_NAMES, Output};
@@ -28,7 +28,8 @@ use super::substrates::bulk_and_tilt;
 use super::wearing::wear;
 use crate::document::{At, Mistake, Places};
 use crate::model::stage::Stage;
-use crate::model::{CoulombFriction, Dimension, Displacement, Profile, Shape};
+use crate::model::{CoulombFriction, Dimension, Displacement, GridSize, Profile, Shape};
+use crate::topography::Cells;
 use crate::units::Units;
 
 /// Cells along one side of the grid, at the least.
@@ -44,8 +45,7 @@ const LONGEST_CELL: f64 = 1e6;
 /// Residual asked for when the case does not say.
 const TOLERANCE: f64 = 1e-8;
 
-/// The case of a file, or everything that is wrong with it; `is_whole`: nothing in it stands for what was refused before, so that one
-/// entry can be judged by another.
+/// The case of a file, or everything that is wrong with it.
 pub(super) fn case(
     file: CaseFile,
     (name, text): (&str, &str),
@@ -65,8 +65,7 @@ pub(super) fn case(
     let profile = profile(&mut judge, &file, over);
     judge.mean_plane = mean_plane(&file, (over, judge.moves), bodies.as_ref(), profile.as_ref());
     let friction = friction(&mut judge, file.friction.as_ref(), over);
-    let changes = of_stages(&mut judge, &file.load.value, over);
-    let changes = friction.as_ref().zip(changes).map(|(first, changes)| of_one_interface(first, changes));
+    let changes = of_stages(&mut judge, &file.load.value, over, friction.as_ref());
     let laws = friction.as_ref().zip(changes.as_ref()).map(|(first, changes)| in_force(first, changes));
     let history_tolerance = file.solver.as_ref().and_then(|solver| solver.history_tolerance.as_ref());
     let rig_file = file.rig.as_ref();
@@ -74,22 +73,31 @@ pub(super) fn case(
     let log_columns = log_columns(&mut judge, rig_file);
     let stages = stages(&mut judge, &file.load, (laws.as_deref(), rig_file), history_tolerance);
     let stages = stages.zip(changes.as_ref()).map(|(stages, changes)| with_friction(stages, changes));
-    let loading = (file.load.value.as_slice(), stages.as_deref());
+    let known = Known {
+        file: &file,
+        dimension,
+        cells,
+        size,
+        bodies: bodies.as_ref(),
+        profile: profile.as_ref(),
+        laws: laws.as_deref(),
+        stages: stages.as_deref(),
+    };
+    let (loading, periodic) = (known.loading(), known.periodic());
     let friction_evolution = evolution(&mut judge, file.friction.as_ref(), friction.as_ref(), loading);
-    let datum = datum(&mut judge, &file.grid, size, bodies.as_ref());
+    let datum = datum(&mut judge, &known);
     let beyond = beyond(&mut judge, &file.grid, size);
     if dimension == Dimension::Line {
-        line(&mut judge, &file.grid, loading, profile.as_ref());
-        motion_without_datum(&mut judge, &file.grid, size, stages.as_deref(), bodies.as_ref());
+        line(&mut judge, &known);
+        motion_without_datum(&mut judge, &known);
     }
-    let periodic = repeats(&mut judge, (&file.grid, cells, size), loading, profile.as_ref(), bodies.as_ref());
-    bulk_and_tilt(&mut judge, &file.grid, loading, bodies.as_ref(), size);
+    repeats(&mut judge, &known);
+    bulk_and_tilt(&mut judge, &known);
     let mapped = friction.iter().chain(changes.iter().flatten().flatten()).any(CoulombFriction::is_map);
     if periodic.is_none() {
         auto_of_what_is_given(&mut judge, &file.grid.size, mapped, profile.as_ref());
     }
-    let frictionless = laws.as_ref().is_some_and(|laws| laws.iter().all(|law| law.is_frictionless()));
-    sliding_coatings(&mut judge, files, frictionless || laws.is_none(), stages.as_deref());
+    sliding_coatings(&mut judge, &known);
     let solver = file.solver.as_ref();
     let tolerance = tolerance(&mut judge, solver.and_then(|solver| solver.tolerance.as_ref()));
     if let (true, Some(laws), Some(stages)) = (places.are_whole(), &laws, &stages) {
@@ -100,19 +108,11 @@ pub(super) fn case(
     }
     let kinematics = kinematics(&mut judge, &Concerned { file: &file, loading });
     rolling(&mut judge, &file, loading, (kinematics, profile.as_ref(), laws.as_deref()));
-    let hardness = hardness(&mut judge, &file, loading, kinematics);
-    let wears = (file.wear.as_ref(), file.stress.as_ref(), kinematics);
-    let surfaces = (frictionless, !periodic.is_none());
-    let wear = wear(&mut judge, wears, (bodies.as_ref(), files), stages.as_deref(), surfaces);
+    let hardness = hardness(&mut judge, &known, kinematics);
+    let wear = wear(&mut judge, &known, kinematics);
     let output = output(&mut judge, file.output.as_ref());
-    let stress = stress(&mut judge, file.stress.as_ref(), bodies.as_ref(), output.as_ref(), frictionless);
-    let conduction = conduction(
-        &mut judge,
-        files,
-        file.thermal.as_ref(),
-        (stages.as_deref(), output.as_ref()),
-        (laws.as_deref(), periodic),
-    );
+    let stress = stress(&mut judge, &known, output.as_ref());
+    let conduction = conduction(&mut judge, &known, output.as_ref());
     if !judge.mistakes.is_empty() {
         return Err(judge.mistakes);
     }
@@ -305,14 +305,6 @@ fn in_force<'a>(
             now
         })
         .collect()
-}
-
-/// Stages change the coefficient; the shear strength of the interface stays.
-fn of_one_interface(
-    first: &CoulombFriction,
-    changes: Vec<Option<CoulombFriction>>,
-) -> Vec<Option<CoulombFriction>> {
-    changes.into_iter().map(|change| change.map(|law| law.with_max_shear_of(first))).collect()
 }
 
 fn with_friction(stages: Vec<Stage>, changes: &[Option<CoulombFriction>]) -> Vec<Stage> {

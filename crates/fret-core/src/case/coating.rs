@@ -19,11 +19,7 @@ pub(super) fn layer(judge: &mut Judge, place: &str, entry: &At<CoatingFile>) -> 
             material.and_then(|material| Coating::new(material, thickness).ok()).map(Layer::Uniform)
         }
         (None, Some(gradient)) => graded(judge, place, given, &gradient.value, has_thickness),
-        (Some(_), Some(gradient)) => judge.refuse(
-            gradient.span(),
-            format!("{place}: young and gradient, both at once"),
-            "leave out one of the two",
-        ),
+        (Some(_), Some(gradient)) => judge.both(gradient.span(), &format!("{place}: young and gradient")),
         (None, None) => judge.refuse(
             entry.span(),
             format!("{place}: nothing says how stiff it is"),
@@ -45,18 +41,18 @@ pub(super) fn material(
     young: &At<f64>,
     poisson: &At<f64>,
 ) -> Option<ElasticMaterial> {
-    let mut good = true;
-    for (value, error) in [
-        (young, ElasticMaterial::new(young.value, 0.0).err()),
-        (poisson, ElasticMaterial::new(1.0, poisson.value).err()),
-    ] {
-        if let Some(error) = error {
-            good = false;
-            let key = if matches!(error, MaterialError::Young(_)) { "young" } else { "poisson" };
-            judge.refuse::<()>(value.span(), format!("{place}.{key}: {error}"), "");
-        }
+    if let Err(error) = ElasticMaterial::new(young.value, 0.0) {
+        judge.refuse::<()>(young.span(), format!("{place}.young: {error}"), "");
     }
-    if good { ElasticMaterial::new(young.value, poisson.value).ok() } else { None }
+    is_ratio(judge, place, poisson);
+    ElasticMaterial::new(young.value, poisson.value).ok()
+}
+
+/// Whether a number is Poisson's ratio of any material; refused where it is not.
+fn is_ratio(judge: &mut Judge, place: &str, poisson: &At<f64>) -> bool {
+    let Err(error) = ElasticMaterial::new(1.0, poisson.value) else { return true };
+    judge.refuse::<()>(poisson.span(), format!("{place}.poisson: {error}"), "");
+    false
 }
 
 fn graded(
@@ -66,21 +62,14 @@ fn graded(
     gradient: &GradientFile,
     has_thickness: bool,
 ) -> Option<Layer> {
-    let poisson = given.poisson.value;
-    let has_poisson = match ElasticMaterial::new(1.0, poisson) {
-        Ok(_) => true,
-        Err(error) => {
-            judge.refuse::<()>(given.poisson.span(), format!("{place}.poisson: {error}"), "");
-            false
-        }
-    };
+    let has_poisson = is_ratio(judge, place, &given.poisson);
     let sublayers = gradient.layers.as_ref().map(|count| count.value);
     let young = young(judge, place, given, gradient);
     if !has_poisson || !has_thickness {
         return None;
     }
     let young = young?;
-    match GradedCoating::new(young, poisson, given.thickness.value) {
+    match GradedCoating::new(young, given.poisson.value, given.thickness.value) {
         Ok(coating) => Some(Layer::Graded { coating, sublayers }),
         Err(error) => {
             let key = if gradient.table.is_some() { "table" } else { "young" };
@@ -125,11 +114,9 @@ fn young(
             format!("{place}.gradient: a law, but no young at both faces"),
             "young = [top, bottom]",
         ),
-        (_, _, Some(table)) => judge.refuse(
-            table.span(),
-            format!("{place}.gradient: a table and a law of depth, both at once"),
-            "leave out one of the two",
-        ),
+        (_, _, Some(table)) => {
+            judge.both(table.span(), &format!("{place}.gradient: a table and a law of depth"))
+        }
         (None, None, None) => judge.refuse(
             given.gradient.as_ref().map_or(given.thickness.span(), At::span),
             format!("{place}.gradient: nothing says how the modulus changes with depth"),

@@ -1,31 +1,26 @@
 //! The judgement of conductivities, and of what is asked about friction heat.
 
-use super::file::ThermalFile;
 use super::judge::Judge;
+use super::known::Known;
 use super::output::Output;
 use super::parts::{Constant, NamedBody};
-use crate::document::At;
 use crate::model::stage::{Course, Stage};
-use crate::model::{ConductingLayer, Conduction, Conductor, CoulombFriction, Dimension, Periodicity};
+use crate::model::{ConductingLayer, Conduction, Conductor, Dimension};
 
 /// Conductors of the lower and the upper body; what was refused conducts nothing.
-pub(super) fn conduction(
-    judge: &mut Judge,
-    bodies: [NamedBody<'_>; 2],
-    table: Option<&At<ThermalFile>>,
-    history: (Option<&[Stage]>, Option<&Output>),
-    (friction, periodic): (Option<&[&CoulombFriction]>, Periodicity),
-) -> Conduction {
-    let before = judge.mistakes.len();
-    let mut of = |constant| bodies.map(|body| conductor(judge, body, constant));
-    let [thermal, electrical] = [Constant::ThermalConductivity, Constant::ElectricalResistivity].map(&mut of);
+pub(super) fn conduction(judge: &mut Judge, known: &Known<'_>, output: Option<&Output>) -> Conduction {
+    let (before, bodies) = (judge.mistakes.len(), known.written());
+    let thermal = bodies.map(|body| conductor(judge, body, &Constant::THERMAL_CONDUCTIVITY, |own| own));
+    let electrical =
+        bodies.map(|body| conductor(judge, body, &Constant::ELECTRICAL_RESISTIVITY, |own| 1.0 / own));
+    let table = known.file.thermal.as_ref();
     let frequency = table.map(|table| table.frequency);
     let conduction = Conduction { thermal, electrical, frequency };
     let Some(table) = table else { return conduction };
     if judge.mistakes.len() > before {
         return conduction;
     }
-    if let Some((why, help)) = without_meaning(&conduction, history, (friction, judge.dimension, periodic)) {
+    if let Some((why, help)) = without_meaning(&conduction, known, output) {
         judge.refuse::<()>(table.span(), format!("thermal: {why}"), help);
     }
     conduction
@@ -34,9 +29,10 @@ pub(super) fn conduction(
 /// Why no temperature can be told of this case, and what to do.
 fn without_meaning(
     conduction: &Conduction,
-    (stages, output): (Option<&[Stage]>, Option<&Output>),
-    (friction, dimension, periodic): (Option<&[&CoulombFriction]>, Dimension, Periodicity),
+    known: &Known<'_>,
+    output: Option<&Output>,
 ) -> Option<(&'static str, &'static str)> {
+    let periodic = known.periodic();
     let is_cyclic = |stage: &Stage| matches!(stage.course, Course::Cycles(_));
     if conduction.thermal.iter().all(Option::is_none) {
         return Some((
@@ -44,16 +40,16 @@ fn without_meaning(
             "thermal_conductivity = ... in every layer and substrate of a body",
         ));
     }
-    if friction.is_some_and(|laws| laws.iter().all(|law| law.is_frictionless())) {
+    if known.is_frictionless() {
         return Some(("a contact without friction makes no heat", "[friction] coefficient = ..."));
     }
-    if friction.is_some_and(|laws| laws.iter().any(|law| law.max_shear().is_some())) {
+    if known.laws.is_some_and(|laws| laws.iter().any(|law| law.max_shear().is_some())) {
         return Some((
             "heat by friction under friction.max_shear, a shear strength, is not computed",
             "without max_shear, or without [thermal]: the contact resistance needs none",
         ));
     }
-    if dimension == Dimension::Line {
+    if known.dimension == Dimension::Line {
         return Some((
             "a line contact: along an infinite line no steady temperature is finite",
             "cells = [x, y], a contact of finite length",
@@ -71,15 +67,14 @@ fn without_meaning(
             "a single contact, on a grid around it: periodic = false",
         ));
     }
-    if stages.is_some_and(|stages| !stages.last().is_some_and(is_cyclic)) {
+    if known.stages.is_some_and(|stages| !stages.last().is_some_and(is_cyclic)) {
         return Some((
             "the last stage has no cycles, and only of a cycle is the mean power known",
             "cycles = ... in the last stage",
         ));
     }
     let kept = output.is_none_or(|output| {
-        let keeps = |name: &str| output.fields.iter().any(|field| field == name);
-        output.every == Some(1) && keeps("pressure") && keeps("shear") && keeps("slip")
+        output.every == Some(1) && ["pressure", "shear", "slip"].iter().all(|name| output.keeps(name))
     });
     (!kept).then_some((
         "the heat of a cycle is made of the tractions and the slip of all its increments, which are not kept",
@@ -87,18 +82,18 @@ fn without_meaning(
     ))
 }
 
-/// The conductor that a body is by one constant; `None` where no layer has it, or it was refused.
-fn conductor(judge: &mut Judge, body: NamedBody<'_>, constant: Constant) -> Option<Conductor> {
+/// The conductor that a body is by a constant, which says its `conductivity`; `None` where no layer has it, or it was refused.
+fn conductor(
+    judge: &mut Judge,
+    body: NamedBody<'_>,
+    constant: &Constant,
+    conductivity: fn(f64) -> f64,
+) -> Option<Conductor> {
     let mut parts = constant.values(judge, body, None, "of all layers and what they lie on, or of none")?;
-    if constant == Constant::ElectricalResistivity {
-        for (_, value) in &mut parts {
-            *value = 1.0 / *value;
-        }
-    }
     let (_, base) = parts.pop()?;
-    let layer = |(thickness, conductivity)| ConductingLayer { thickness, conductivity };
+    let layer = |(thickness, own)| ConductingLayer { thickness, conductivity: conductivity(own) };
     // a thickness is refused where the bodies are judged
-    Conductor::new(parts.into_iter().map(layer).collect(), base).ok()
+    Conductor::new(parts.into_iter().map(layer).collect(), conductivity(base)).ok()
 }
 
 #[cfg(test)]

@@ -6,10 +6,8 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Map, Value};
 
 use crate::document::{At, Keys, Read, Reader, Table, TableReader};
+pub(super) use crate::model::controls::LARGEST;
 use crate::model::controls::{ControlRow, Form, Way, ways};
-
-/// No load or motion is larger, in any unit: products of two of them, and sums of these, are finite.
-pub(super) const LARGEST: f64 = 1e100;
 
 /// What stays as it was.
 #[derive(Debug, Clone, Copy, PartialEq, Table, JsonSchema)]
@@ -186,20 +184,4 @@ fn key<T: Read>(
 ) -> Option<(Vec<Option<f64>>, Range<usize>)> {
     let given: At<T> = table.optional(way.name, None, reader)?;
     Some((values(&given.value), given.span()))
-}
-
-/// A column that can hold a control, as those of `history.csv` are called.
-#[derive(Clone)]
-pub(super) struct Column {
-    pub name: String,
-    pub way: &'static Way,
-    pub freedom: usize,
-}
-
-/// All of them.
-pub(super) fn columns() -> Vec<Column> {
-    let of_way = |(row, way): (&'static ControlRow, &'static Way)| {
-        row.columns(way).map(move |(name, freedom)| Column { name, way, freedom })
-    };
-    ways().flat_map(of_way).collect()
 }

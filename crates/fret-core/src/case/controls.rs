@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
-use super::control_keys::{self, Column, Given, LARGEST};
+use super::control_keys::Given;
 use super::judge::Judge;
 use super::mean_gap::counted_from;
 use super::stage_file::StageFile;
-use super::table::Columns;
 use crate::document::At;
-use crate::model::controls::{ControlRow, FREEDOMS, Form, Kind};
+use crate::measured::Loads;
+use crate::model::controls::{self, Column, ControlRow, FREEDOMS, Form, Kind, LARGEST};
 use crate::model::stage::{Path, StageControl};
 
 /// What a stage prescribes, for each degree of freedom; what is refused is left out.
@@ -19,15 +19,12 @@ pub(super) fn controls(
     judge: &mut Judge,
     place: &str,
     file: &StageFile,
-    columns: Option<&Columns>,
+    columns: Option<&Loads>,
 ) -> Controls {
     if let Some(columns) = columns {
         if let Some(span) = file.controls.place(0..FREEDOMS) {
-            judge.refuse::<()>(
-                span,
-                format!("{place}: a table and a control, both at once"),
-                "the table holds all controls of its stage",
-            );
+            let help = "the table holds all controls of its stage";
+            judge.both_or::<()>(span, &format!("{place}: a table and a control"), help);
         }
         let span = file.table.as_ref().map(At::span).unwrap_or_default();
         return from_table(judge, (place, &span), columns);
@@ -107,9 +104,9 @@ fn phases(judge: &mut Judge, place: &str, file: &StageFile) -> [f64; FREEDOMS] {
     phases
 }
 
-fn from_table(judge: &mut Judge, (place, span): (&str, &Range<usize>), columns: &Columns) -> Controls {
+fn from_table(judge: &mut Judge, (place, span): (&str, &Range<usize>), columns: &Loads) -> Controls {
     let mut controls = Controls::default();
-    for Column { name, way, freedom } in control_keys::columns() {
+    for Column { name, way, freedom } in controls::columns() {
         let Some(values) = columns.get(&name) else { continue };
         let plane = match way.kind {
             Kind::MeanGap => counted_from(judge, place, span.clone(), values.iter().copied()),
@@ -130,5 +127,5 @@ fn both(judge: &mut Judge, place: &str, one: &str, row: &ControlRow, other: &str
             "prescribe one of the two along each axis: {force} = [1.0, \"held\"], {other} = [\"held\", 0.0]"
         )
     };
-    judge.refuse::<()>(span, format!("{place}: {one} and {other}, both at once"), &help);
+    judge.both_or::<()>(span, &format!("{place}: {one} and {other}"), &help);
 }

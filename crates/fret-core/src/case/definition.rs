@@ -3,15 +3,14 @@
 use serde::{Deserialize, Serialize};
 
 use super::output::Output;
-use super::refusal::{CaseError, Difference};
 use super::stress::StressRequest;
-use crate::document::Mistake;
+use crate::document::{Mistake, Refusal as CaseError};
 use crate::kernel::uniform_response;
 use crate::model::stage::Stage;
 use crate::model::{
-    Beyond, CellMap, Conduction, ContactPair, CoulombFriction, Dimension, Frame, FrictionEvolution, Heights,
-    HeightsSummary, Integration, Kinematics, LoadStep, MapSummary, Periodicity, Profile, ResidualStress, Rig,
-    Scheme, WearRule,
+    Beyond, CellMap, Conduction, ContactPair, CoulombFriction, Dimension, FrictionEvolution, GridSize,
+    Heights, HeightsSummary, Integration, Kinematics, LoadStep, MapSummary, Periodicity, Profile,
+    ResidualStress, Rig, Scheme, WearRule,
 };
 use crate::subsurface::fatigue::LayerConstants;
 use crate::units::Units;
@@ -109,6 +108,11 @@ pub(crate) struct Origin {
 }
 
 impl Origin {
+    /// A refusal of the case.
+    fn refuse(&self, mistakes: Vec<Mistake>) -> CaseError {
+        CaseError::new(&self.name, &self.text, mistakes)
+    }
+
     /// Where a table is named first; `None` of a case that no text was read for.
     fn place_of(&self, table: &str) -> Option<std::ops::Range<usize>> {
         let tables = toml::de::DeTable::parse(&self.text).ok()?.into_inner();
@@ -116,24 +120,15 @@ impl Origin {
     }
 }
 
-/// Side lengths of the grid.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum GridSize {
-    /// Given [length]; of a line contact, the length and the width of one strip.
-    Given([f64; 2]),
-    /// Chosen so that the largest contact of the history fits with a margin.
-    Auto,
-}
-
-impl GridSize {
-    /// The side lengths, where they are given.
-    pub fn given(self) -> Option<[f64; 2]> {
-        match self {
-            Self::Given(sides) => Some(sides),
-            Self::Auto => None,
-        }
-    }
+/// A place in which a case differs from the setting of a state.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Difference {
+    /// Dotted key of the case.
+    pub key: String,
+    /// What the case has.
+    pub case: String,
+    /// What the state has.
+    pub state: String,
 }
 
 impl<M, H> Case<M, H> {
@@ -193,30 +188,6 @@ impl<M, H> Case<M, H> {
 }
 
 impl Case {
-    /// What helps a contact that reaches the edge of the grid: heights end there, neither they nor a map grow with it, and an automatic size
-    /// has been tried where it is written.
-    pub(crate) fn way_from_the_edge(&self) -> &'static str {
-        let has_map = self.friction.is_map()
-            || self.stages.iter().filter_map(|stage| stage.friction.as_ref()).any(CoulombFriction::is_map);
-        if self.rolls() && self.kinematics.frame == Frame::Contact {
-            if has_map || !self.profile.heights.is_empty() {
-                "it goes along with the contact, and holds twice the cells of an increment open on either side: enlarge grid.size with maps and heights for it, or roll by fewer cells in an increment"
-            } else {
-                "it goes along with the contact, and holds twice the cells of an increment open on either side: enlarge grid.size, or roll by fewer cells in an increment"
-            }
-        } else if !self.profile.heights.is_empty() {
-            "the heights end there: grid.beyond = \"no body\" where the body ends there, too; grid.periodic = true lets the surface repeat; or a lower load, heights of a larger area"
-        } else if self.periodic.one_axis().is_some() {
-            "enlarge grid.size across the axis that repeats; grid.beyond = \"no body\" where a body ends there"
-        } else if self.size == GridSize::Auto {
-            "write grid.size = [x, y], larger than what \"auto\" found, which fret plan shows"
-        } else if has_map {
-            "enlarge grid.size, with a friction map for it"
-        } else {
-            "enlarge grid.size, or write size = \"auto\"; grid.beyond = \"no body\" where a body ends there"
-        }
-    }
-
     /// Whether the contact rolls in any stage, or has rolled where the history starts.
     pub fn rolls(&self) -> bool {
         let starts = self.start.is_some_and(|loads| loads.roll != [0.0; 2]);
@@ -243,19 +214,16 @@ impl Case {
     /// Refuses the case for its grid's side lengths.
     pub(crate) fn refuse_size(&self, message: String, help: &str) -> CaseError {
         let help = (!help.is_empty()).then(|| help.to_owned());
-        let mistake = Mistake { message, help, span: Some(self.origin.size.clone()) };
-        CaseError::new(&self.origin.name, &self.origin.text, vec![mistake])
+        self.origin.refuse(vec![Mistake { message, help, span: Some(self.origin.size.clone()) }])
     }
 
     /// Refuses the case for what one of its tables says.
     pub(crate) fn refuse_table(&self, table: &str, message: String, help: String) -> CaseError {
-        let mistake = Mistake { message, help: Some(help), span: self.origin.place_of(table) };
-        CaseError::new(&self.origin.name, &self.origin.text, vec![mistake])
+        self.origin.refuse(vec![Mistake { message, help: Some(help), span: self.origin.place_of(table) }])
     }
 
     /// Refuses the case for the state that its history would start from, which is one of another setting.
     pub(crate) fn refuse_start(&self, differences: &[Difference]) -> CaseError {
-        let text = &self.origin.text;
         let mistakes = differences.iter().map(|Difference { key, case, state }| {
             let table = key.split(['.', '[']).next().unwrap_or_default();
             Mistake {
@@ -267,7 +235,7 @@ impl Case {
                 span: self.origin.place_of(table),
             }
         });
-        CaseError::new(&self.origin.name, text, mistakes.collect())
+        self.origin.refuse(mistakes.collect())
     }
 
     /// Whether fields are kept of increment `k` (from 1) of a stage: of every `output.every`-th, and of the last.

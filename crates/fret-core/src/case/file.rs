@@ -4,11 +4,10 @@ use schemars::JsonSchema;
 
 use super::body_file::BodyFile;
 use super::control_keys::BothOrOne;
-use super::side::Side;
 use super::stage_file::{AutoWord, StageFile, WearFile};
 use super::surface_file::{FrictionFile, LENGTH, ProfileFile};
 use crate::document::{At, Range, Table};
-use crate::model::{Beyond, BeyondMaps, Displacement, Frame, Integration, Periodicity, Scheme};
+use crate::model::{Beyond, BeyondMaps, Displacement, Frame, Integration, Periodicity, Scheme, Side};
 
 /// A fretting contact: bodies, first gap, friction, and a loading history. Any consistent system of units.
 #[derive(Table, JsonSchema)]

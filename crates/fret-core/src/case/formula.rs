@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use super::arrays::Cells;
 use super::judge::Judge;
 use super::surface_file::FormulaFile;
 use crate::document::{At, is_free_name};
 use crate::model::formula::VARIABLES;
 use crate::model::{Formula, Shape, SurfaceGrid};
+use crate::topography::Cells;
 
 /// The shape; `None` when something about it was refused.
 pub(super) fn formula(

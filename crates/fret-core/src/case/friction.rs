@@ -2,12 +2,13 @@
 
 use std::ops::Range;
 
-use super::arrays::{self, Cells, Layout};
+use super::arrays;
 use super::judge::Judge;
 use super::stage_file::StageFile;
 use super::surface_file::{CoefficientFile, FrictionFile, MapFile};
 use crate::document::At;
 use crate::model::{CellMap, CellValues, CoulombFriction, FrictionError};
+use crate::topography::{Cells, Layout, fitting};
 
 /// The law the history starts with; `None` when something about it was refused.
 pub(super) fn friction(
@@ -17,11 +18,10 @@ pub(super) fn friction(
 ) -> Option<CoulombFriction> {
     let Some(given) = given else { return Some(CoulombFriction::NONE) };
     let law = match (&given.coefficient, &given.map) {
-        (Some(_), Some(map)) => judge.refuse(
-            map.span(),
-            "friction: coefficient and map, both at once",
-            "a map has a coefficient for every cell: leave out one of the two",
-        ),
+        (Some(_), Some(map)) => {
+            let help = "a map has a coefficient for every cell: leave out one of the two";
+            judge.both_or(map.span(), "friction: coefficient and map", help)
+        }
         (None, Some(given)) => {
             let place = "friction.map";
             map(judge, place, given.span(), &given.value, cells)
@@ -52,11 +52,13 @@ pub(super) fn friction(
     }
 }
 
-/// What each stage says about friction, if anything; `None` when something was refused.
+/// What each stage says about friction, if anything: another coefficient; the shear strength of the interface stays that of the `first` law.
+/// `None` when something was refused.
 pub(super) fn of_stages(
     judge: &mut Judge,
     stages: &[At<StageFile>],
     cells: Option<Cells>,
+    first: Option<&CoulombFriction>,
 ) -> Option<Vec<Option<CoulombFriction>>> {
     let mut all = Vec::new();
     for (index, stage) in stages.iter().enumerate() {
@@ -68,7 +70,8 @@ pub(super) fn of_stages(
                 .map(Some),
         });
     }
-    all.into_iter().collect()
+    let (all, first) = (all.into_iter().collect::<Option<Vec<_>>>()?, first?);
+    Some(all.into_iter().map(|change| change.map(|law| law.with_max_shear_of(first))).collect())
 }
 
 /// One number, or one for every cell.
@@ -92,12 +95,13 @@ fn map(
     given: &MapFile,
     cells: Option<Cells>,
 ) -> Option<CellValues> {
-    cells?;
+    let cells = cells?;
     let array = match given {
         MapFile::File(name) => arrays::of_file(judge, place, span.clone(), name),
         MapFile::Array(array) => arrays::given(judge, place, span.clone(), array),
     }?;
-    arrays::fitting(judge, cells, (place, span), array, Layout::XY).map(|map| CellValues::Map(CellMap(map)))
+    let map = judge.take(place, span, fitting(cells, array, Layout::XY))?;
+    Some(CellValues::Map(CellMap(map)))
 }
 
 fn accepted(

@@ -3,7 +3,8 @@
 use super::body_file::BodyFile;
 use super::file::CaseFile;
 use super::judge::Judge;
-use super::misfits::{Loading, Misfit};
+use super::known::Known;
+use super::misfits::Misfit;
 use crate::document::At;
 use crate::model::Kinematics;
 use crate::model::controls::{BULK_STRESS, ROLL, TILT};
@@ -23,13 +24,9 @@ pub(super) fn of_softer(file: &CaseFile) -> Option<&At<f64>> {
 }
 
 /// The pressure at which the softer surface yields [pressure]; `None` where neither does, or it was refused.
-pub(super) fn hardness(
-    judge: &mut Judge,
-    file: &CaseFile,
-    loading: Loading<'_>,
-    kinematics: Kinematics,
-) -> Option<f64> {
-    for (which, body) in [("lower", &file.lower.value), ("upper", &file.upper.value)] {
+pub(super) fn hardness(judge: &mut Judge, known: &Known<'_>, kinematics: Kinematics) -> Option<f64> {
+    let (file, loading) = (known.file, known.loading());
+    for (which, body) in known.written() {
         let is_rigid = body.rigid.as_ref().is_some_and(|rigid| rigid.value);
         if let Some(given) = body.hardness.as_ref().filter(|_| is_rigid) {
             judge.refuse::<()>(

@@ -1,8 +1,8 @@
 //! The judgement of interfaces below coatings, and of what a coating that slides freely cannot bear.
 
-use super::body_file::{BodyFile, CoatingFile, InterfaceFile, InterfaceWord};
+use super::body_file::{CoatingFile, InterfaceFile, InterfaceWord};
 use super::judge::Judge;
-use crate::model::stage::Stage;
+use super::known::Known;
 use crate::model::{Interface, InterfaceError, Layer};
 
 /// Stiffness of a spring over that of the coating, modulus over thickness, at the least: below it nothing is held, and digits are lost.
@@ -54,13 +54,9 @@ pub(super) fn interface(
 }
 
 /// Refuses what has no equilibrium where a coating slides freely: shear on its surface, and a substrate that is stretched below it.
-pub(super) fn sliding_coatings(
-    judge: &mut Judge,
-    bodies: [(&str, &BodyFile); 2],
-    frictionless: bool,
-    stages: Option<&[Stage]>,
-) {
-    for (body, (which, file)) in bodies.into_iter().enumerate() {
+pub(super) fn sliding_coatings(judge: &mut Judge, known: &Known<'_>) {
+    let frictionless = known.is_frictionless() || known.laws.is_none();
+    for (body, (which, file)) in known.written().into_iter().enumerate() {
         let coatings = file.coatings.as_ref().map_or(&[][..], |list| &list.value);
         let slides = |interface: &InterfaceFile| match interface {
             InterfaceFile::Word(word) => *word == InterfaceWord::Frictionless,
@@ -72,7 +68,7 @@ pub(super) fn sliding_coatings(
                 .then(|| (format!("{which}.coatings[{index}].interface"), interface.span()))
         });
         let Some((place, span)) = free else { continue };
-        let stretched = stages.is_some_and(|stages| {
+        let stretched = known.stages.is_some_and(|stages| {
             stages.iter().any(|stage| stage.bulk_stress[body].iter().any(Option::is_some))
         });
         if !frictionless {

@@ -38,9 +38,35 @@ impl Judge<'_> {
         message: impl Into<String>,
         help: &str,
     ) -> Option<T> {
-        let help = (!help.is_empty()).then(|| help.to_owned());
-        self.mistakes.push(Mistake { message: message.into(), help, span: Some(span) });
+        self.mistakes.push(Mistake::new(message, help).at(span));
         None
+    }
+
+    /// What was found, or its mistake: the message goes on behind `place`, and stands at `span` where nothing else is said.
+    pub(super) fn take<T>(
+        &mut self,
+        place: &str,
+        span: Range<usize>,
+        found: Result<T, Mistake>,
+    ) -> Option<T> {
+        match found {
+            Ok(found) => Some(found),
+            Err(Mistake { message, help, span: own }) => {
+                let span = Some(own.unwrap_or(span));
+                self.mistakes.push(Mistake { message: format!("{place}{message}"), help, span });
+                None
+            }
+        }
+    }
+
+    /// Refuses two things of which one is meant.
+    pub(super) fn both<T>(&mut self, span: Range<usize>, things: &str) -> Option<T> {
+        self.both_or(span, things, "leave out one of the two")
+    }
+
+    /// The same with another way out.
+    pub(super) fn both_or<T>(&mut self, span: Range<usize>, things: &str, help: &str) -> Option<T> {
+        self.refuse(span, format!("{things}, both at once"), help)
     }
 
     /// Refuses each of the things that is given: its place, what is wrong with it, the way out.
@@ -55,21 +81,23 @@ impl Judge<'_> {
         }
     }
 
-    /// Content of a file the case names under `key`; refused, with the reason, when it cannot be had.
-    pub(super) fn attached(&mut self, key: &str, name: &At<String>) -> Option<Vec<u8>> {
-        match (self.attachments.file)(&name.value) {
+    /// Content of a file the case names under `key`; refused, with the reason and the way out, when it cannot be had.
+    pub(super) fn attached(
+        &mut self,
+        (key, span): (&str, Range<usize>),
+        name: &str,
+        help: &str,
+    ) -> Option<Vec<u8>> {
+        match (self.attachments.file)(name) {
             Ok(content) => Some(content),
-            Err(reason) => self.refuse(
-                name.span(),
-                format!("{key} = {:?}: {reason}", &name.value),
-                "a file's name is relative to the case file",
-            ),
+            Err(reason) => self.refuse(span, format!("{key} = {name:?}: {reason}"), help),
         }
     }
 
     /// The same as text, with line feeds at the ends of lines.
     pub(super) fn attached_text(&mut self, key: &str, name: &At<String>) -> Option<String> {
-        let content = self.attached(key, name)?;
+        let help = "a file's name is relative to the case file";
+        let content = self.attached((key, name.span()), &name.value, help)?;
         match letters(&content) {
             Ok(text) => Some(text.into_owned()),
             Err(error) => {

@@ -3,10 +3,9 @@
 use super::file::CaseFile;
 use super::judge::Judge;
 use super::misfits::Loading;
-use super::side::Side;
 use super::surface_file::OfFile;
 use crate::document::At;
-use crate::model::{Displacement, Frame, Kinematics, Periodicity};
+use crate::model::{Displacement, Frame, Kinematics, Periodicity, Side};
 
 /// What is looked at.
 pub(super) struct Concerned<'a> {

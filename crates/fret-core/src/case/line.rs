@@ -2,13 +2,13 @@
 
 use std::ops::RangeInclusive;
 
-use super::file::GridFile;
+use super::Stage;
 use super::judge::Judge;
-use super::misfits::{Loading, Misfit};
-use super::{GridSize, Stage};
+use super::known::Known;
+use super::misfits::Misfit;
 use crate::model::controls::TWIST;
 use crate::model::stage::StageControl;
-use crate::model::{Axis, ContactPair, Dimension, Profile, Shape};
+use crate::model::{Axis, ContactPair, Dimension, GridSize, Shape};
 
 /// Depth of the datum in units of the size of the grid.
 pub const DATUM: RangeInclusive<f64> = 1e-3..=1e12;
@@ -18,7 +18,8 @@ pub(super) const ROTATION: Misfit =
     Misfit { freedoms: TWIST..TWIST + 1, motions: false, in_table: "a twist" };
 
 /// Refuses what a line contact has no place for: rotations, shapes that end or curve along the line, a second period.
-pub(super) fn line(judge: &mut Judge, grid: &GridFile, loading: Loading<'_>, profile: Option<&Profile>) {
+pub(super) fn line(judge: &mut Judge, known: &Known<'_>) {
+    let grid = &known.file.grid;
     if let Some(periodic) = grid.periodic.as_ref().filter(|periodic| !periodic.value.is_none()) {
         judge.refuse::<()>(
             periodic.span(),
@@ -28,8 +29,8 @@ pub(super) fn line(judge: &mut Judge, grid: &GridFile, loading: Loading<'_>, pro
     }
     let why = "in a line contact: its strips cannot turn about z";
     let help = "prescribe tangential_force or shift: [across the line, along it]";
-    ROTATION.refuse(judge, loading, why, help);
-    let Some(profile) = profile else { return };
+    ROTATION.refuse(judge, known.loading(), why, help);
+    let Some(profile) = known.profile else { return };
     let mut shapes = profile.shapes.iter();
     if let Some((name, help)) = shapes.find_map(of_a_surface) {
         judge.refuse::<()>(
@@ -73,17 +74,12 @@ fn of_a_surface(shape: &Shape) -> Option<(&'static str, &'static str)> {
 }
 
 /// Refuses an approach, that is relative to a depth which follows from a size that follows from them.
-pub(super) fn motion_without_datum(
-    judge: &mut Judge,
-    grid: &GridFile,
-    size: Option<GridSize>,
-    checked: Option<&[Stage]>,
-    bodies: Option<&ContactPair>,
-) {
+pub(super) fn motion_without_datum(judge: &mut Judge, known: &Known<'_>) {
+    let grid = &known.file.grid;
     let moves = |stage: &Stage| stage.normal.as_ref().is_some_and(StageControl::is_motion);
-    let is_open = grid.datum.is_none() && size == Some(GridSize::Auto);
-    let has_base = bodies.is_some_and(ContactPair::has_elastic_base);
-    if is_open && has_base && checked.is_some_and(|stages| stages.iter().any(moves)) {
+    let is_open = grid.datum.is_none() && known.size == Some(GridSize::Auto);
+    let has_base = known.bodies.is_some_and(ContactPair::has_elastic_base);
+    if is_open && has_base && known.stages.is_some_and(|stages| stages.iter().any(moves)) {
         judge.refuse::<()>(
             grid.size.span(),
             "grid.size = \"auto\" in a line contact with a prescribed approach and no datum: the approach is relative to a depth, which \
@@ -94,12 +90,8 @@ pub(super) fn motion_without_datum(
 }
 
 /// The depth that approach and shift are relative to; `None` where it follows from the size of the grid or has no meaning.
-pub(super) fn datum(
-    judge: &mut Judge,
-    grid: &GridFile,
-    size: Option<GridSize>,
-    bodies: Option<&ContactPair>,
-) -> Option<f64> {
+pub(super) fn datum(judge: &mut Judge, known: &Known<'_>) -> Option<f64> {
+    let grid = &known.file.grid;
     let given = grid.datum.as_ref()?;
     let depth = given.value;
     let across = match grid.periodicity().one_axis() {
@@ -113,14 +105,14 @@ pub(super) fn datum(
             "cells = 512 makes a line contact",
         );
     };
-    if bodies.is_some_and(|bodies| !bodies.has_elastic_base()) {
+    if known.bodies.is_some_and(|bodies| !bodies.has_elastic_base()) {
         return judge.refuse(
             given.span(),
             "grid.datum: no body has an elastic base, so that displacements have a zero of their own",
             "leave it out",
         );
     }
-    let usable = match size {
+    let usable = match known.size {
         Some(GridSize::Given(sides)) => {
             let length = sides[across];
             (DATUM.start() * length..=DATUM.end() * length).contains(&depth)

@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use super::arrays::Cells;
 use super::file::CaseFile;
 use super::hardness::of_softer;
 use super::judge::{Judge, WithoutMeanGap};
 use crate::kernel::uniform_response;
 use crate::model::{ContactPair, Profile, SurfaceGrid};
+use crate::topography::Cells;
 
 /// Its key, and its column in a table.
 pub(super) const MEAN_GAP: &str = "mean_gap";

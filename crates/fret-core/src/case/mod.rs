@@ -1,4 +1,4 @@
-//! The written question: a case, checked. Read from TOML text (`read`), judged all at once (`check`), refused with places (`refusal`).
+//! The written question: a case, checked. Read from TOML text (`read`), judged all at once (`check`), refused with places.
 
 mod arrays;
 mod attachments;
@@ -21,46 +21,42 @@ mod hardness;
 mod interface;
 mod judge;
 mod kinematics;
+mod known;
 mod line;
 mod mean_gap;
 mod misfits;
 mod output;
 mod parts;
 mod read;
-mod refusal;
 mod repeating;
 mod residual;
-mod residual_file;
 mod rig;
 mod rolled_maps;
 mod rolling;
 mod shape;
-mod side;
 mod stage_file;
-mod stage_names;
 mod stages;
 mod stress;
 mod substrates;
 mod surface_file;
 mod table;
-mod table_layout;
 mod third_body;
-mod topography;
 mod wearing;
 
-pub use crate::document::{Mistake, in_words, printable, steers};
-pub(crate) use crate::model::stage::walk;
+pub use crate::document::{
+    Mistake, Refusal as CaseError, in_words, printable, refuse_too_long, steers, toml_of,
+};
+pub use crate::machine::files::{content, unreadable};
 pub use crate::model::stage::{Course, Cycles, Path, Stage, StageControl};
+pub(crate) use crate::model::walk;
 pub use crate::model::waveform::{CycleTimes, Waveform};
-pub use attachments::{Attachments, ReadScan, content, unreadable};
-pub use definition::{Case, CaseRecord, GridSize};
+pub use crate::model::{GridSize, Side};
+pub use crate::topography::{ReadScan, Scan};
+pub use attachments::Attachments;
+pub use definition::{Case, CaseRecord, Difference};
 pub use file::schema;
 pub use line::DATUM;
 pub use output::{FIELD_NAMES, Output};
-pub use read::{refuse_too_long, toml_of};
-pub use refusal::{CaseError, Difference};
 pub use repeating::CELLS_PER_WAVE;
-pub use side::Side;
-pub(crate) use stages::{WAY_TO_SLIDE, apart};
+pub(crate) use stages::WAY_TO_SLIDE;
 pub use stress::StressRequest;
-pub use topography::Scan;

@@ -24,3 +24,10 @@ pub struct Output {
     /// Fields of every so many increments of a stage are kept, and of its last; `None`: of the last only.
     pub every: Option<usize>,
 }
+
+impl Output {
+    /// Whether a field is kept.
+    pub fn keeps(&self, name: &str) -> bool {
+        self.fields.iter().any(|field| field == name)
+    }
+}

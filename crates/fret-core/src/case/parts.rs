@@ -2,9 +2,8 @@
 
 use std::ops::Range;
 
-use super::body_file::{BodyFile, LayerConstantsFile};
+use super::body_file::{BodyFile, LayerConstantsFile, ResidualFile, RigidConstantsFile};
 use super::judge::Judge;
-use super::residual_file::ResidualFile;
 use crate::document::At;
 
 /// A body and what it is called.
@@ -51,58 +50,48 @@ pub(super) fn layers((which, body): NamedBody<'_>) -> Vec<Layer<'_>> {
 }
 
 /// A constant that every part of a body has, or none.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Constant {
-    ThermalConductivity,
-    ElectricalResistivity,
-    WearCoefficient,
+pub(super) struct Constant {
+    key: &'static str,
+    of_layer: fn(&LayerConstantsFile) -> Option<&At<f64>>,
+    of_rigid: fn(&RigidConstantsFile) -> Option<&At<f64>>,
 }
 
 impl Constant {
-    /// Its key.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::ThermalConductivity => "thermal_conductivity",
-            Self::ElectricalResistivity => "electrical_resistivity",
-            Self::WearCoefficient => "wear_coefficient",
-        }
-    }
-
-    fn of_layer(self, layer: &LayerConstantsFile) -> Option<&At<f64>> {
-        match self {
-            Self::ThermalConductivity => layer.thermal_conductivity.as_ref(),
-            Self::ElectricalResistivity => layer.electrical_resistivity.as_ref(),
-            Self::WearCoefficient => layer.wear_coefficient.as_ref(),
-        }
-    }
-
-    fn of_rigid(self, body: &BodyFile) -> Option<&At<f64>> {
-        match self {
-            Self::ThermalConductivity => body.constants.thermal_conductivity.as_ref(),
-            Self::ElectricalResistivity => body.constants.electrical_resistivity.as_ref(),
-            Self::WearCoefficient => body.constants.wear_coefficient.as_ref(),
-        }
-    }
+    pub const THERMAL_CONDUCTIVITY: Self = Self {
+        key: "thermal_conductivity",
+        of_layer: |layer| layer.thermal_conductivity.as_ref(),
+        of_rigid: |rigid| rigid.thermal_conductivity.as_ref(),
+    };
+    pub const ELECTRICAL_RESISTIVITY: Self = Self {
+        key: "electrical_resistivity",
+        of_layer: |layer| layer.electrical_resistivity.as_ref(),
+        of_rigid: |rigid| rigid.electrical_resistivity.as_ref(),
+    };
+    pub const WEAR_COEFFICIENT: Self = Self {
+        key: "wear_coefficient",
+        of_layer: |layer| layer.wear_coefficient.as_ref(),
+        of_rigid: |rigid| rigid.wear_coefficient.as_ref(),
+    };
 
     /// The first of a body that is given.
-    pub fn first(self, body: NamedBody<'_>) -> Option<Range<usize>> {
+    pub fn first(&self, body: NamedBody<'_>) -> Option<Range<usize>> {
         let layers = layers(body);
-        let own = layers.iter().find_map(|layer| self.of_layer(layer.constants));
-        own.or(self.of_rigid(body.1)).map(At::span)
+        let own = layers.iter().find_map(|layer| (self.of_layer)(layer.constants));
+        own.or((self.of_rigid)(&body.1.constants)).map(At::span)
     }
 
     /// Thickness and value of every part, from the surface down; `None` where no part has it, or it was refused. What is rigid has
     /// `rigid` where it does not say.
     pub fn values(
-        self,
+        &self,
         judge: &mut Judge,
         body: NamedBody<'_>,
         rigid: Option<f64>,
         help: &str,
     ) -> Option<Vec<(f64, f64)>> {
-        let ((which, file), key) = (body, self.key());
+        let ((which, file), key) = (body, self.key);
         let layers = layers(body);
-        let own = self.of_rigid(file);
+        let own = (self.of_rigid)(&file.constants);
         self.first(body)?;
         if let (Some(own), true) = (own, file.substrate.is_some()) {
             return judge.refuse(
@@ -121,7 +110,7 @@ impl Constant {
             )),
         };
         for layer in &layers {
-            let value = self.of_layer(layer.constants).map(|given| given.value);
+            let value = (self.of_layer)(layer.constants).map(|given| given.value);
             part(&layer.place, layer.span.clone(), layer.thickness, value);
         }
         if file.substrate.is_none() {

@@ -1,13 +1,13 @@
 //! The judgement of scenes that repeat in x and y.
 
-use super::definition::GridSize;
 use super::file::GridFile;
 use super::judge::Judge;
+use super::known::Known;
 use super::line::ROTATION;
-use super::misfits::{Loading, Misfit};
+use super::misfits::Misfit;
 use crate::kernel::uniform_response;
 use crate::model::controls::{NORMAL, TANGENTIAL, TWIST};
-use crate::model::{ContactPair, Dimension, Periodicity, Profile, Shape};
+use crate::model::{Dimension, GridSize, Profile, Shape};
 
 /// Cells per wave from which on a wave is resolved; fewer are warned of.
 pub const CELLS_PER_WAVE: f64 = 6.0;
@@ -19,25 +19,19 @@ const MOTIONS: [Misfit; 2] = [
     Misfit { freedoms: TANGENTIAL..TWIST, motions: true, in_table: "a shift" },
 ];
 
-/// Along which axes the scene repeats, a line contact along none; refuses what has no meaning then.
-pub(super) fn repeats(
-    judge: &mut Judge,
-    (grid, cells, size): (&GridFile, Option<[usize; 2]>, Option<GridSize>),
-    loading: Loading<'_>,
-    profile: Option<&Profile>,
-    bodies: Option<&ContactPair>,
-) -> Periodicity {
-    if judge.dimension == Dimension::Line {
-        return Periodicity::NONE;
+/// Refuses what has no meaning where a scene repeats, and what needs that it does.
+pub(super) fn repeats(judge: &mut Judge, known: &Known<'_>) {
+    let (grid, loading, periodic) = (&known.file.grid, known.loading(), known.periodic());
+    if known.dimension == Dimension::Line {
+        return;
     }
-    let periodic = grid.periodicity();
-    if let Some(profile) = profile {
+    if let Some(profile) = known.profile {
         endless(judge, grid, profile);
     }
     if periodic.is_none() {
-        return periodic;
+        return;
     }
-    match (size, profile) {
+    match (known.size, known.profile) {
         (Some(GridSize::Auto), _) => {
             judge.refuse::<()>(
                 grid.size.span(),
@@ -48,7 +42,7 @@ pub(super) fn repeats(
         (Some(GridSize::Given(sides)), Some(profile)) => {
             for shape in &profile.shapes {
                 if let Shape::Wave { wavelengths, .. } = shape {
-                    whole_waves(judge, (grid, cells), sides, wavelengths);
+                    whole_waves(judge, (grid, known.cells), sides, wavelengths);
                 }
             }
         }
@@ -57,9 +51,9 @@ pub(super) fn repeats(
     let forces = "prescribe normal_force and tangential_force, those of one period";
     ROTATION.refuse(judge, loading, "in a periodic case: a rotation is not periodic", forces);
     if !periodic.is_both() {
-        return periodic;
+        return;
     }
-    let uniform = bodies.map(uniform_response);
+    let uniform = known.bodies.map(uniform_response);
     for (axis, motions) in MOTIONS.iter().enumerate() {
         let why = match uniform {
             Some(None) if axis == 0 => "a half-space under a periodic load has no such rigid motion",
@@ -72,7 +66,6 @@ pub(super) fn repeats(
         let or = if uniform == Some(None) { "mean_gap; " } else { "" };
         motions.refuse(judge, loading, &why, &format!("{forces}; or {or}for layers, base = \"rigid\""));
     }
-    periodic
 }
 
 /// Refuses what has no end along an axis along which nothing repeats.

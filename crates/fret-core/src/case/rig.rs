@@ -1,12 +1,11 @@
 //! The judgement of the machine: how stiff it is, that a stage which drives its far end has one, and what its logs look like.
 
-use super::control_keys::BothOrOne;
-use super::control_keys::Given;
+use super::control_keys::{BothOrOne, Given};
 use super::file::{LogColumnsFile, RigFile};
 use super::judge::Judge;
 use super::stage_file::StageFile;
-use super::table::Columns;
 use crate::document::At;
+use crate::measured::Loads;
 use crate::model::Rig;
 use crate::model::controls::{CONTROLS, Kind, NORMAL};
 
@@ -47,7 +46,7 @@ pub(super) fn driven(
     judge: &mut Judge,
     place: &str,
     file: &StageFile,
-    columns: Option<&Columns>,
+    columns: Option<&Loads>,
     rig: Option<&RigFile>,
 ) {
     let given = |freedom: usize| {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::arrays::{self, Cells};
+use super::arrays;
 use super::file::CaseFile;
 use super::formula::formula;
 use super::judge::Judge;
@@ -11,11 +11,11 @@ use super::surface_file::{
     PyramidFile, RectangularPunchFile, RoundedPunchFile, SphereFile, SpheroConeFile, WaveFile,
     WornSphereFile,
 };
-use super::topography::{self, Content, Measured, Question, Treated};
-use crate::document::At;
+use crate::document::{At, Mistake};
 use crate::heights::marks::hole;
-use crate::model::{Axis, Detrend, Heights, Profile, Shape};
-use crate::numbers::Head;
+use crate::model::{Axis, Detrend, Heights, Profile, ProfileError, Shape};
+use crate::numbers::{Head, NumbersError};
+use crate::topography::{self, Cells, Content, FILL, Question, Treated, fitting};
 
 /// The gap, as the sum of all profiles of a case; `None` when something about them was refused.
 pub(super) fn profile(judge: &mut Judge, file: &CaseFile, cells: Option<Cells>) -> Option<Profile> {
@@ -186,15 +186,15 @@ impl Part<'_, '_> {
                 "of = \"surface\", or [profile.heights]",
             );
         }
-        if self.cells.is_none() || !self.judge.places.are_whole_in(&place) {
-            return None;
-        }
+        let cells = self.cells.filter(|_| self.judge.places.are_whole_in(&place))?;
         let keys = &given.treatment;
         let (source, at, content) = match (&given.file, &given.values) {
             (Some(file), None) => {
-                let key = format!("{place}.file");
-                let content = topography::content(self.judge, (&key, file.span()), &file.value, keys)?;
-                (file.value.as_str(), file.span(), content)
+                let (key, name) = (format!("{place}.file"), file.value.as_str());
+                let bytes = self.judge.attached((&key, file.span()), name, NumbersError::A_FILE)?;
+                let content = topography::content((name, &bytes), keys, self.judge.attachments.scan);
+                let content = self.judge.take(&format!("{key} = {name:?}: "), file.span(), content)?;
+                (name, file.span(), content)
             }
             (None, Some(values)) => {
                 let key = format!("{place}.values");
@@ -202,11 +202,7 @@ impl Part<'_, '_> {
                 ("values", values.span(), Content::Numbers(array, Head::default()))
             }
             (Some(_), Some(values)) => {
-                return self.judge.refuse(
-                    values.span(),
-                    format!("{place}: file and values, both at once"),
-                    "leave out one of the two",
-                );
+                return self.judge.both(values.span(), &format!("{place}: file and values"));
             }
             (None, None) => {
                 return self.judge.refuse(
@@ -216,64 +212,54 @@ impl Part<'_, '_> {
                 );
             }
         };
-        let rows = given.rows.unwrap_or(Axis::X);
-        let sign = if of_gap.is_some() { -1.0 } else { 1.0 };
-        let detrend = given.detrend.unwrap_or(Detrend::None);
-        let question = Question { place: &place, span: at.clone(), keys, cells: self.cells? };
-        let (array, layout) = match content {
-            Content::Numbers(array, head) => {
-                let (array, layout) = question.with_unit(self.judge, array, (rows, given.unit, &head))?;
-                if keys.is_asked() {
-                    let measured = question.of_array(self.judge, (array, &head), layout)?;
-                    return self.treated(&question, measured, (source, sign, detrend));
-                }
-                (array, layout)
-            }
-            Content::Scan(scan) => {
-                let measured = question.of_scan(self.judge, scan, given.unit, given.rows.is_some())?;
-                return self.treated(&question, measured, (source, sign, detrend));
-            }
-        };
-        let mut array = arrays::fitting(self.judge, self.cells, (&place, at.clone()), array, layout)?;
-        if let Some((cell, mark, [low, high])) = hole(&array) {
-            return self.judge.refuse(
-                at,
-                format!(
-                    "{place}: height {cell:?} is {mark:?}, and all others lie between {low:?} and {high:?}: a cell without a measurement"
-                ),
-                topography::FILL,
-            );
-        }
-        array.mapv_inplace(|height| sign * layout.unit * height);
-        match Heights::new(source, array, detrend) {
-            Ok(heights) => Some(heights),
-            Err(error) => self.judge.refuse(at, format!("{place}: {error}"), topography::FILL),
-        }
+        let units = self.judge.units.clone();
+        let question = Question { keys, cells, units: units.as_ref() };
+        let heights = judged(&question, given, content, (source, of_gap.is_some()));
+        self.judge.take(&place, at, heights)
     }
+}
 
-    /// Measured heights after all that is done to them; `sign`: -1 for a gap.
-    fn treated(
-        &mut self,
-        question: &Question<'_>,
-        measured: Measured,
-        (source, sign, detrend): (&str, f64, Detrend),
-    ) -> Option<Heights> {
-        let (treated, record) = question.treated(self.judge, measured, detrend)?;
-        let heights = match treated {
-            Treated::Cells(heights) => Heights::new(source, sign * heights, Detrend::None),
-            Treated::Surface(mut surface) => {
-                surface.heights *= sign;
-                Heights::resampled(source, surface, question.cells.count)
+/// Heights for the cells, from what a file or the case holds; those of a gap with the opposite sign.
+fn judged(
+    question: &Question<'_>,
+    given: &HeightsFile,
+    content: Content,
+    (source, is_gap): (&str, bool),
+) -> Result<Heights, Mistake> {
+    let sign = if is_gap { -1.0 } else { 1.0 };
+    let detrend = given.detrend.unwrap_or(Detrend::None);
+    let measured = match content {
+        Content::Numbers(array, head) => {
+            let rows = given.rows.unwrap_or(Axis::X);
+            let (array, layout) = question.with_unit(array, (rows, given.unit, &head))?;
+            if !question.keys.is_asked() {
+                let mut array = fitting(question.cells, array, layout)?;
+                if let Some((cell, mark, [low, high])) = hole(&array) {
+                    let message = format!(
+                        ": height {cell:?} is {mark:?}, and all others lie between {low:?} and {high:?}: a cell without a measurement"
+                    );
+                    return Err(Mistake::new(message, FILL));
+                }
+                array.mapv_inplace(|height| sign * layout.unit * height);
+                return accepted(Heights::new(source, array, detrend));
             }
-        };
-        match heights {
-            Ok(heights) => Some(heights.treated(record)),
-            Err(error) => {
-                let message = format!("{}: {error}", question.place);
-                self.judge.refuse(question.span.clone(), message, topography::FILL)
-            }
+            question.of_array((array, &head), layout)?
         }
-    }
+        Content::Scan(scan) => question.of_scan(scan, given.unit, given.rows.is_some())?,
+    };
+    let (treated, record) = question.treated(measured, detrend)?;
+    let heights = match treated {
+        Treated::Cells(heights) => Heights::new(source, sign * heights, Detrend::None),
+        Treated::Surface(mut surface) => {
+            surface.heights *= sign;
+            Heights::resampled(source, surface, question.cells.count)
+        }
+    };
+    Ok(accepted(heights)?.treated(record))
+}
+
+fn accepted(heights: Result<Heights, ProfileError>) -> Result<Heights, Mistake> {
+    heights.map_err(|error| Mistake::new(format!(": {error}"), FILL))
 }
 
 #[cfg(test)]

@@ -188,3 +188,13 @@ pub(super) enum WornBodyFile {
     /// The lower one.
     Lower,
 }
+
+impl WornBodyFile {
+    /// 0: lower, 1: upper.
+    pub fn number(self) -> usize {
+        match self {
+            Self::Lower => 0,
+            Self::Upper => 1,
+        }
+    }
+}

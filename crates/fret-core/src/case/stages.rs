@@ -11,13 +11,12 @@ use super::mean_gap::MEAN_GAP;
 use super::rig::driven;
 use super::rolling::direction;
 use super::stage_file::{IncrementsFile, RampFile, StageFile, WaveformFile};
-use super::stage_names::own_names;
 use super::table::table;
-use crate::document::At;
+use crate::document::{At, apart};
 use crate::model::controls::{TANGENTIAL, TWIST, ways};
-use crate::model::stage::{Course, Cycles, Stage, StageControl, walk};
+use crate::model::stage::{Course, Cycles, Stage, StageControl};
 use crate::model::waveform::Waveform;
-use crate::model::{Control, CoulombFriction};
+use crate::model::{Control, CoulombFriction, walk};
 use crate::solver::sliding_fraction;
 
 /// Increments of a whole history, at the most.
@@ -62,6 +61,21 @@ pub(super) fn stages(
         );
     }
     Some(stages)
+}
+
+/// Refuses a stage whose name an earlier one has: stages are called by their names, in results and in sweeps.
+fn own_names(judge: &mut Judge, list: &[At<StageFile>]) {
+    for (index, given) in list.iter().enumerate() {
+        let Some(name) = &given.value.name else { continue };
+        let has_it = |other: &At<StageFile>| other.value.name.as_ref() == Some(name);
+        if let Some(first) = list[..index].iter().position(has_it) {
+            judge.refuse::<()>(
+                given.span(),
+                format!("load[{index}].name = {name:?}: load[{first}] has that name, too"),
+                "a name of its own for each stage: results and sweeps call stages by their names",
+            );
+        }
+    }
 }
 
 /// The bound for increments whose division is left to the program.
@@ -354,31 +368,6 @@ pub(super) fn sliding(
             );
             return;
         }
-    }
-}
-
-/// Two numbers in as few digits as tell them apart.
-pub fn apart(one: f64, other: f64) -> [String; 2] {
-    let rounded = [one, other].map(|value| {
-        let short = format!("{value:.5e}").parse::<f64>().unwrap_or(value);
-        format!("{short:?}")
-    });
-    if rounded[0] == rounded[1] { [one, other].map(|value| format!("{value:?}")) } else { rounded }
-}
-
-impl Stage {
-    /// Whether the stage prescribes any tangential force or motion, or a bulk stress, which moves the surfaces tangentially.
-    pub fn is_tangential(&self) -> bool {
-        self.tangential.iter().any(Option::is_some) || self.twist.is_some() || self.stretches()
-    }
-
-    /// Whether it prescribes more than forces that stay zero. A bulk stress of a contact without friction only adds to the stresses below.
-    fn is_tangential_beyond_rest(&self) -> bool {
-        let rests = |control: &StageControl| match control {
-            StageControl::Motion(_) | StageControl::FarEnd(_) | StageControl::Rate(_) => false,
-            StageControl::Force(path) => path.is_zero(),
-        };
-        self.tangential.iter().flatten().any(|control| !rests(control)) || self.twist.is_some()
     }
 }
 

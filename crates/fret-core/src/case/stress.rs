@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::file::{DepthsFile, StressFile};
+use super::file::DepthsFile;
 use super::judge::Judge;
+use super::known::Known;
 use super::output::Output;
-use super::side::Side;
 use crate::document::At;
-use crate::model::{Body, ContactPair};
+use crate::model::{Body, Side};
 use crate::subsurface::depth_points;
 use crate::subsurface::fatigue::FatigueConstants;
 
@@ -39,14 +39,8 @@ impl Default for StressRequest {
 }
 
 /// The request of a case; `None` when there is none, or when it was refused.
-pub(super) fn stress(
-    judge: &mut Judge,
-    given: Option<&At<StressFile>>,
-    bodies: Option<&ContactPair>,
-    output: Option<&Output>,
-    frictionless: bool,
-) -> Option<StressRequest> {
-    let table = given?;
+pub(super) fn stress(judge: &mut Judge, known: &Known<'_>, output: Option<&Output>) -> Option<StressRequest> {
+    let table = known.file.stress.as_ref()?;
     let file = &table.value;
     if file.torsion_limit.is_some() != file.tension_limit.is_some() {
         judge.refuse::<()>(
@@ -57,7 +51,7 @@ pub(super) fn stress(
     }
     let body = file.body.as_ref().map_or(Side::Lower, |side| side.value);
     let place = file.body.as_ref().map_or_else(|| table.span(), At::span);
-    let half_space = match bodies.map(|pair| body.of(pair)) {
+    let half_space = match known.bodies.map(|pair| body.of(pair)) {
         Some(Body::Rigid) => {
             let other = if body == Side::Lower { "upper" } else { "lower" };
             judge.refuse::<()>(
@@ -88,15 +82,14 @@ pub(super) fn stress(
             }
         },
     };
-    if let Some(output) = output {
-        let keeps = |name: &str| output.fields.iter().any(|field| field == name);
-        if !keeps("pressure") || !(frictionless || keeps("shear")) {
-            judge.refuse::<()>(
-                table.span(),
-                "stress: the tractions are not kept, from which stresses are made",
-                "output.fields = [\"pressure\", \"shear\", ...]",
-            );
-        }
+    if output.is_some_and(|output| {
+        !output.keeps("pressure") || !(known.is_frictionless() || output.keeps("shear"))
+    }) {
+        judge.refuse::<()>(
+            table.span(),
+            "stress: the tractions are not kept, from which stresses are made",
+            "output.fields = [\"pressure\", \"shear\", ...]",
+        );
     }
     let fatigue = FatigueConstants {
         yield_strength: file.yield_strength,

@@ -3,25 +3,19 @@
 use std::ops::Range;
 
 use super::control_keys::Given;
-use super::definition::GridSize;
-use super::file::GridFile;
+use super::file::CaseFile;
 use super::judge::Judge;
-use super::misfits::Loading;
+use super::known::Known;
 use crate::document::At;
-use crate::model::stage::Stage;
-
 use crate::model::bulk::substrate;
-use crate::model::{Body, ContactPair, Dimension};
+use crate::model::stage::Stage;
+use crate::model::{Body, ContactPair, Dimension, GridSize};
 
 /// Refuses bulk stresses of bodies without a substrate, both of them in periodic cases, two values in a line contact and one elsewhere,
 /// tilt on a grid whose size is left to the program.
-pub(super) fn bulk_and_tilt(
-    judge: &mut Judge,
-    grid: &GridFile,
-    (stages, checked): Loading<'_>,
-    bodies: Option<&ContactPair>,
-    size: Option<GridSize>,
-) {
+pub(super) fn bulk_and_tilt(judge: &mut Judge, known: &Known<'_>) {
+    let Known { file: CaseFile { grid, .. }, bodies, size, .. } = *known;
+    let (stages, checked) = known.loading();
     let periodic = !grid.periodicity().is_none();
     for (index, file) in stages.iter().enumerate() {
         let file = &file.value;

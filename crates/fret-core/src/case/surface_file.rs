@@ -5,10 +5,9 @@ use std::borrow::Cow;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
-use super::side::Side;
-use super::topography::keys::TreatmentFile;
 use crate::document::{At, Named, Range, Table};
-use crate::model::{Axis, Detrend, EvolutionDriver};
+use crate::model::{Axis, Detrend, EvolutionDriver, Side};
+use crate::topography::TreatmentFile;
 
 /// A length of a shape.
 pub(super) const LENGTH: Range = Range::POSITIVE.words("must be a positive finite length");

@@ -8,6 +8,8 @@ mod mistake;
 mod parser_words;
 mod range;
 mod reader;
+mod refusal;
+mod text;
 mod values;
 mod words;
 
@@ -18,5 +20,9 @@ pub use mistake::Mistake;
 pub use parser_words::in_words;
 pub use range::Range;
 pub use reader::{Keys, Places, Read, Reader, Reading, TableReader, Written, fault, is_word};
+pub use refusal::Refusal;
+#[cfg(test)]
+pub(crate) use text::{DEEPEST, LONGEST};
+pub use text::{refuse_too_long, toml_of, written};
 pub use values::Named;
-pub use words::{printable, steers};
+pub use words::{apart, printable, steers};

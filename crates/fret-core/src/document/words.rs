@@ -61,6 +61,15 @@ pub(super) fn near_miss<'a>(found: &str, words: &[&'a str]) -> Option<&'a str> {
     close.or(cut_short)
 }
 
+/// Two numbers in as few digits as tell them apart.
+pub fn apart(one: f64, other: f64) -> [String; 2] {
+    let rounded = [one, other].map(|value| {
+        let short = format!("{value:.5e}").parse::<f64>().unwrap_or(value);
+        format!("{short:?}")
+    });
+    if rounded[0] == rounded[1] { [one, other].map(|value| format!("{value:?}")) } else { rounded }
+}
+
 /// Whether a letter would steer a terminal or turn the direction of writing; lines and tabs do not.
 pub fn steers(letter: char) -> bool {
     letter.is_control() && !matches!(letter, '\n' | '\t')

@@ -7,6 +7,9 @@ use std::ops::Range;
 /// along x and y, roll along x and y.
 pub const FREEDOMS: usize = 12;
 
+/// No load or motion is larger, in any unit: products of two of them, and sums of these, are finite.
+pub const LARGEST: f64 = 1e100;
+
 /// The normal degree of freedom.
 pub const NORMAL: usize = 0;
 /// The first of the tangential ones.
@@ -96,6 +99,25 @@ impl ControlRow {
 /// All ways to prescribe a control, each with its row.
 pub fn ways() -> impl Iterator<Item = (&'static ControlRow, &'static Way)> {
     CONTROLS.iter().flat_map(|row| row.ways.iter().map(move |way| (row, way)))
+}
+
+/// A column that can hold a control, as those of `history.csv` are called.
+#[derive(Debug, Clone)]
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// The control.
+    pub way: &'static Way,
+    /// Its degree of freedom.
+    pub freedom: usize,
+}
+
+/// All of them.
+pub fn columns() -> Vec<Column> {
+    let of_way = |(row, way): (&'static ControlRow, &'static Way)| {
+        row.columns(way).map(move |(name, freedom)| Column { name, way, freedom })
+    };
+    ways().flat_map(of_way).collect()
 }
 
 use Kind::{FarEnd, Force, MeanGap, Motion, Rate};

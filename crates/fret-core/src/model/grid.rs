@@ -100,3 +100,23 @@ impl SurfaceGrid {
         (0..self.cells[axis]).map(|index| self.centre(axis, index)).collect()
     }
 }
+
+/// Side lengths of the grid.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GridSize {
+    /// Given [length]; of a line contact, the length and the width of one strip.
+    Given([f64; 2]),
+    /// Chosen so that the largest contact of the history fits with a margin.
+    Auto,
+}
+
+impl GridSize {
+    /// The side lengths, where they are given.
+    pub fn given(self) -> Option<[f64; 2]> {
+        match self {
+            Self::Given(sides) => Some(sides),
+            Self::Auto => None,
+        }
+    }
+}

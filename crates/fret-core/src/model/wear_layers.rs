@@ -100,6 +100,15 @@ impl WearLayers {
         worn.work.is_finite().then_some(worn)
     }
 
+    /// Depth off both bodies together [length] when a body (0: lower, 1: upper) has lost a depth [length]; where both have one coefficient, and
+    /// no layers, all of it is taken for that body's. `None` when it never does.
+    pub fn depth_when_lost(layers: Option<&Self>, body: usize, depth: f64) -> Option<f64> {
+        match layers {
+            None => Some(depth),
+            Some(layers) => layers.when_body_has_lost(body, depth).map(|worn| worn.depth()),
+        }
+    }
+
     /// Depths [length] lost by each layer of the lower and the upper body, where these have lost `depths`.
     pub fn by_layer(&self, depths: [f64; 2]) -> [Vec<f64>; 2] {
         let [lower, upper] = self.bodies();

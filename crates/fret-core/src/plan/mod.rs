@@ -1,6 +1,7 @@
 //! The question made numerical, before any work: grid, sizes, what is computed and what is left out and why.
 
 mod advance;
+mod edge;
 mod extent;
 mod left_out;
 mod loaded;
@@ -23,6 +24,7 @@ use crate::machine::memory::{MemoryError, claim};
 use crate::model::{Body, ContactState, Frame, SurfaceGrid, Symmetry};
 pub use crate::solver::Coupling;
 pub use advance::Advance;
+pub(crate) use edge::way_from_the_edge;
 use extent::{COARSE, Unexpected, automatic_size, expected_contact, reaches_beyond};
 pub use extent::{ExpectedContact, over_body};
 pub use left_out::LeftOut;
@@ -170,7 +172,7 @@ impl Plan {
             let message = format!(
                 "grid.size = {size:?}: the contact under the heaviest load reaches the edge of the grid"
             );
-            return Err(case.refuse_size(message, case.way_from_the_edge()));
+            return Err(case.refuse_size(message, way_from_the_edge(&case)));
         }
         in_whole_cells(&case, &grid)?;
         let endless = case.endless_axis().filter(|_| case.bodies.has_elastic_base());

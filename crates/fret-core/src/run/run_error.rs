@@ -1,8 +1,10 @@
 //! Why a run ends without its answer.
 
 use super::checkpoint::Place;
-use crate::case::{Case, StageControl, WAY_TO_SLIDE, apart};
+use crate::case::{Case, StageControl, WAY_TO_SLIDE};
+use crate::document::apart;
 use crate::machine::memory::MemoryError;
+use crate::plan::way_from_the_edge;
 use crate::solver::{Carried, SolveError};
 use crate::units::Units;
 
@@ -306,7 +308,7 @@ pub fn run_error(error: &SolveError, increment: usize, case: &Case, stage: usize
             RunError::NoTilt { increment, stage, asked, reached, unit: unit("force x length") }
         }
         SolveError::ContactAtEdge => {
-            RunError::ContactAtEdge { increment, stage, advice: case.way_from_the_edge() }
+            RunError::ContactAtEdge { increment, stage, advice: way_from_the_edge(case) }
         }
         SolveError::OperatorsMissing(error) => RunError::NotConverged {
             increment,

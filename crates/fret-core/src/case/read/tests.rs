@@ -2,9 +2,10 @@
 
 mod words;
 
-use super::{DEEPEST, LONGEST, MOST_MISTAKES, toml_of};
+use super::MOST_MISTAKES;
 use crate::case::Case;
 use crate::case::check::tests::BALL;
+use crate::document::{DEEPEST, LONGEST, toml_of};
 
 /// What every mistake says, and what stands at its place.
 fn mistakes(text: &str) -> Vec<(String, String, String)> {

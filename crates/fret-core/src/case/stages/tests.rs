@@ -2,9 +2,9 @@
 
 mod course;
 
-use super::apart;
 use crate::case::check::tests::{BALL, read, refused};
 use crate::case::{Attachments, Case};
+use crate::document::apart;
 use crate::model::CoulombFriction;
 
 /// The ball pressed with a force of 0.01 under a coefficient of 0.3, and then a second stage.

@@ -2,7 +2,8 @@ use crate::case::check::tests::{BALL, read};
 use crate::case::{Attachments, Case};
 use crate::model::Control::{self, FarEnd, Force, Motion};
 use crate::model::LoadStep;
-use crate::model::stage::{KnownLoads, Path, Stage, walk};
+use crate::model::stage::{Path, Stage};
+use crate::model::{KnownLoads, walk};
 
 /// The stages of a case with these tables [[load]] behind its first.
 fn stages(loads: &str, table: &str) -> Vec<Stage> {

@@ -1,28 +1,18 @@
-//! How a case is refused: every mistake with its place, what was found, what is allowed.
+//! How a document is refused: every mistake with its place, what was found, what is allowed.
 
 use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
-use crate::document::{Mistake, printable};
+use super::mistake::Mistake;
+use super::words::printable;
 
 /// Bytes of a place that is marked over several lines, at the most.
 const LONGEST_MARK: usize = 1000;
 
-/// A place in which a case differs from the setting of a state.
+/// A refused document, with all its mistakes.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Difference {
-    /// Dotted key of the case.
-    pub key: String,
-    /// What the case has.
-    pub case: String,
-    /// What the state has.
-    pub state: String,
-}
-
-/// A refused case, with all its mistakes.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct CaseError {
+pub struct Refusal {
     name: String,
     text: String,
     mistakes: Vec<Mistake>,
@@ -30,7 +20,7 @@ pub struct CaseError {
     lacks_memory: bool,
 }
 
-impl CaseError {
+impl Refusal {
     /// A refusal of a text, with its mistakes.
     pub fn new(name: &str, text: &str, mut mistakes: Vec<Mistake>) -> Self {
         mistakes.sort_by_key(|mistake| mistake.span.as_ref().map_or(usize::MAX, |span| span.start));
@@ -58,7 +48,7 @@ impl CaseError {
         &self.mistakes
     }
 
-    /// Name of the case (a file name).
+    /// Name of the document (a file name).
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -71,7 +61,7 @@ impl CaseError {
         Some((before.matches('\n').count() + 1, before[line_start..].chars().count() + 1))
     }
 
-    /// The refusal as a person reads it, with the lines of the case; in colour for a terminal.
+    /// The refusal as a person reads it, with its lines; in colour for a terminal.
     pub fn render(&self, colour: bool) -> String {
         let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
         let blocks: Vec<String> =
@@ -105,24 +95,23 @@ fn shown(text: &str, span: Range<usize>) -> Range<usize> {
     }
 }
 
-impl std::fmt::Display for CaseError {
+impl std::fmt::Display for Refusal {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter.write_str(&self.render(false))
     }
 }
 
-impl std::error::Error for CaseError {}
+impl std::error::Error for Refusal {}
 
 #[cfg(test)]
 mod tests {
-    use super::CaseError;
-    use crate::document::Mistake;
+    use super::{Mistake, Refusal};
 
     #[test]
     fn a_long_place_over_several_lines_is_marked_in_its_first() {
         let text = format!("a = [\n{}]\n", "_".repeat(5000));
         let mistake = Mistake { message: "wrong".to_owned(), help: None, span: Some(4..text.len() - 1) };
-        let told = CaseError::new("case.toml", &text, vec![mistake]).render(false);
+        let told = Refusal::new("case.toml", &text, vec![mistake]).render(false);
         assert!(told.contains("a = [") && told.len() < 200, "{told}");
     }
 
@@ -131,7 +120,7 @@ mod tests {
         let text = "a = 1\nµm = 2\n\nlast";
         let mistake = |at: usize| Mistake { message: "wrong".to_owned(), help: None, span: Some(at..at + 1) };
         let starts = [0, 4, 5, 6, 8, text.find("= 2").unwrap(), text.find("last").unwrap()];
-        let error = CaseError::new("case.toml", text, starts.into_iter().rev().map(mistake).collect());
+        let error = Refusal::new("case.toml", text, starts.into_iter().rev().map(mistake).collect());
         assert_eq!(error.name(), "case.toml");
         // by lines and letters, the end of a line among its letters; in the order of the text
         let places: Vec<_> = error.mistakes().iter().map(|mistake| error.place(mistake).unwrap()).collect();
@@ -142,12 +131,12 @@ mod tests {
         // with its line where it has a place in the text
         let [first, last] = [0, 6].map(|index| {
             let one = vec![error.mistakes()[index].clone()];
-            CaseError::new("case.toml", text, one).render(false)
+            Refusal::new("case.toml", text, one).render(false)
         });
         assert!(first.contains("case.toml:1:1") && first.contains("a = 1"), "{first}");
         assert!(last.contains("case.toml:4:1") && last.contains("last"), "{last}");
-        let beyond = CaseError::new("case.toml", text, vec![mistake(text.len())]).render(false);
+        let beyond = Refusal::new("case.toml", text, vec![mistake(text.len())]).render(false);
         assert_eq!(beyond, "error: case.toml: wrong");
-        assert_eq!(CaseError::plain("b", "no").render(false), "error: b: no");
+        assert_eq!(Refusal::plain("b", "no").render(false), "error: b: no");
     }
 }

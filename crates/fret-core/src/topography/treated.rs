@@ -1,20 +1,19 @@
 //! Measured heights after all that a case asks for: filled, cut, levelled, filtered, and on the cells of the grid.
 
-use std::ops::Range;
-
 use ndarray::{Array2, s};
 
+use super::cells::Cells;
 use super::content::FILL;
 use super::question::{Measured, Question, SPACING};
-use crate::case::arrays::Cells;
-use crate::case::judge::Judge;
+use super::wrong::{refuse, wrong};
+use crate::document::{At, Mistake};
 use crate::heights::points;
 use crate::heights::resample::MeasuredSurface;
 use crate::heights::{fill, gaussian, resample};
-use crate::model::{Detrend, Treatment};
+use crate::model::{Detrend, Dimension, Treatment};
 
 /// Heights after all that is done to them.
-pub(in crate::case) enum Treated {
+pub enum Treated {
     /// One for every cell.
     Cells(Array2<f64>),
     /// A surface that any grid takes its heights from.
@@ -23,141 +22,88 @@ pub(in crate::case) enum Treated {
 
 impl Question<'_> {
     /// The heights after all that the case asks for, and the record of it.
-    pub fn treated(
-        &self,
-        judge: &mut Judge,
-        mut measured: Measured,
-        detrend: Detrend,
-    ) -> Option<(Treated, Treatment)> {
+    ///
+    /// # Errors
+    /// When something of it cannot be done to these heights, or they do not fit the grid.
+    pub fn treated(&self, mut measured: Measured, detrend: Detrend) -> Result<(Treated, Treatment), Mistake> {
         let [nx, ny] = measured.points();
         let (read_by, size) = (measured.read_by.take(), measured.size);
         let mut record = Treatment { read_by, points: [nx, ny], size, ..Treatment::default() };
-        if self.cells.count[1] == 1 && ny > 1 {
-            return self.refuse(
-                judge,
-                &format!("{nx} x {ny} points, in a line contact"),
+        if self.dimension() == Dimension::Line && ny > 1 {
+            return refuse(
+                format!("{nx} x {ny} points, in a line contact"),
                 "a line contact takes a line scan; a surface needs two numbers of cells",
             );
         }
-        self.check_uneven(judge, &measured)?;
-        self.filled(judge, &mut measured, &mut record)?;
+        self.check_uneven(&measured)?;
+        self.filled(&mut measured, &mut record)?;
         if let Some(cut) = &self.keys.cut {
-            self.cut(judge, &mut measured, (&cut.value, cut.span()))?;
+            kept(&mut measured, cut)?;
             record.cut = Some(cut.value.clone());
         }
         detrend.remove_from(&mut measured.heights);
-        self.filtered(judge, &mut measured, &mut record)?;
+        self.filtered(&mut measured, &mut record)?;
         if self.keys.resamples() {
             record.resample = Some("linear".to_owned());
-            return Some((Treated::Surface(self.surface(judge, measured)?), record));
+            return Ok((Treated::Surface(self.surface(measured)?), record));
         }
-        self.are_cells(judge, &measured)?;
-        Some((Treated::Cells(measured.heights), record))
+        self.are_cells(&measured)?;
+        Ok((Treated::Cells(measured.heights), record))
     }
 
     /// Refuses what needs even points, of points that are not.
-    fn check_uneven(&self, judge: &mut Judge, measured: &Measured) -> Option<()> {
+    fn check_uneven(&self, measured: &Measured) -> Result<(), Mistake> {
         if measured.places.is_none() {
-            return Some(());
+            return Ok(());
         }
         let why = |what: &str| format!("{what}: the points of this line scan are not evenly spaced");
         let has_holes = measured.heights.iter().any(|height| height.is_nan());
         if has_holes && self.keys.fills() {
             let help = "leave points without a measurement out of the file: resample = \"linear\" goes straight from one point to the next";
-            return self.refuse(judge, &why("fill"), help);
+            return refuse(why("fill"), help);
         }
         let filters = self.keys.short_cutoff.is_some() || self.keys.long_cutoff.is_some();
         for (what, is_asked) in [("cut", self.keys.cut.is_some()), ("short_cutoff and long_cutoff", filters)]
         {
             if is_asked {
-                return self.refuse(judge, &why(what), "resample = \"linear\" alone takes such points");
+                return refuse(why(what), "resample = \"linear\" alone takes such points");
             }
         }
-        Some(())
+        Ok(())
     }
 
-    fn filled(&self, judge: &mut Judge, measured: &mut Measured, record: &mut Treatment) -> Option<()> {
+    fn filled(&self, measured: &mut Measured, record: &mut Treatment) -> Result<(), Mistake> {
         let [nx, ny] = measured.points();
         let heights = &mut measured.heights;
         let first = heights.indexed_iter().find(|(_, height)| height.is_nan()).map(|(at, _)| at);
-        let Some((i, j)) = first else { return Some(()) };
+        let Some((i, j)) = first else { return Ok(()) };
         let count = heights.iter().filter(|height| height.is_nan()).count();
         record.holes = count;
         if !self.keys.fills() {
             let all = heights.len();
             let why = format!("{count} of {all} points have no measurement, the first at [{i}, {j}]");
-            return self.refuse(judge, &why, FILL);
+            return refuse(why, FILL);
         }
         record.fill = Some("harmonic".to_owned());
         // Points that are not resampled are the cells.
         let size = measured.size.or(self.cells.size.filter(|_| !self.keys.resamples()));
         let spacing = size.map_or([1.0; 2], |size| [size[0] / nx as f64, size[1] / ny as f64]);
         let ratio = if ny > 1 { (spacing[0] / spacing[1]).powi(2) } else { 1.0 };
-        match fill::fill(heights, [1.0, ratio]) {
-            Ok(()) => Some(()),
-            Err(why) => self.refuse(judge, why, "measure again, or choose another channel"),
-        }
+        fill::fill(heights, [1.0, ratio])
+            .map_err(|why| wrong(why, "measure again, or choose another channel"))
     }
 
-    /// The size, which something that is asked for needs.
-    fn size_for(&self, judge: &mut Judge, what: &str, size: Option<[f64; 2]>) -> Option<[f64; 2]> {
-        let why = || format!("{what}: nothing says how large the scan is");
-        size.or_else(|| self.refuse(judge, &why(), "size = [x, y] [length], of a line scan one length"))
-    }
-
-    /// Keeps a part of the scan.
-    fn cut(
-        &self,
-        judge: &mut Judge,
-        measured: &mut Measured,
-        (cut, span): (&[[f64; 2]], Range<usize>),
-    ) -> Option<()> {
-        let size = self.size_for(judge, "cut", measured.size)?;
-        let counts = measured.points();
-        let axes = if counts[1] == 1 { 1 } else { 2 };
-        if cut.len() != axes {
-            let message = format!("{}.cut: {} pairs of from and to, wanted {axes}", self.place, cut.len());
-            return judge.refuse(
-                span,
-                message,
-                "cut = [[x from, x to], [y from, y to]]; of a line scan [[from, to]]",
-            );
-        }
-        let mut kept = [0..counts[0], 0..counts[1]];
-        let mut sides = size;
-        for (axis, &[from, to]) in cut.iter().enumerate() {
-            let spacing = size[axis] / counts[axis] as f64;
-            let index = |at: f64| (at / spacing).round();
-            let [first, end] = [index(from), index(to)];
-            if !(first >= 0.0 && end >= first + 2.0 && end <= counts[axis] as f64) {
-                let message = format!(
-                    "{}.cut: from {from} to {to} along {}, of a scan of 0 to {} with points {spacing} apart",
-                    self.place,
-                    ["x", "y"][axis],
-                    size[axis]
-                );
-                return judge.refuse(span, message, "at least two points inside the scan");
-            }
-            kept[axis] = first as usize..end as usize;
-            sides[axis] = spacing * (end - first);
-        }
-        let [x, y] = kept;
-        measured.heights = measured.heights.slice(s![x, y]).to_owned();
-        measured.size = Some(sides);
-        Some(())
-    }
-
-    fn filtered(&self, judge: &mut Judge, measured: &mut Measured, record: &mut Treatment) -> Option<()> {
+    fn filtered(&self, measured: &mut Measured, record: &mut Treatment) -> Result<(), Mistake> {
         let (short, long) = (self.keys.short_cutoff.as_ref(), self.keys.long_cutoff.as_ref());
         if let (Some(short), Some(long)) = (short, long)
             && short.value >= long.value
         {
-            let message = format!("{}: short_cutoff is not below long_cutoff", self.place);
-            return judge.refuse(short.span(), message, "waves between the two are kept");
+            let why = "short_cutoff is not below long_cutoff";
+            return Err(wrong(why, "waves between the two are kept").at(short.span()));
         }
         for (cutoff, is_short) in [(short, true), (long, false)] {
             let Some(cutoff) = cutoff else { continue };
-            let size = self.size_for(judge, "short_cutoff and long_cutoff", measured.size)?;
+            let size = size_for("short_cutoff and long_cutoff", measured.size)?;
             let counts = measured.points();
             let repeats = self.is_period(size);
             let heights = &mut measured.heights;
@@ -171,19 +117,19 @@ impl Question<'_> {
                 record.long_cutoff = Some(cutoff.value);
             }
         }
-        Some(())
+        Ok(())
     }
 
     /// The surface that the cells of the grid are taken from, which lies in the middle of the scan.
-    fn surface(&self, judge: &mut Judge, measured: Measured) -> Option<MeasuredSurface> {
-        let size = self.size_for(judge, "resample", measured.size)?;
+    fn surface(&self, measured: Measured) -> Result<MeasuredSurface, Mistake> {
+        let size = size_for("resample", measured.size)?;
         let Some(grid) = self.cells.size else {
-            return self.refuse(judge, "resample: grid.size must be given", "grid.size = [x, y]");
+            return refuse("resample: grid.size must be given", "grid.size = [x, y]");
         };
-        let axes = if self.cells.count[1] == 1 { 1 } else { 2 };
+        let axes = self.dimension().axes().len();
         if (0..axes).any(|axis| grid[axis] > size[axis] * (1.0 + SPACING)) {
             let why = format!("the scan is {}, and the grid {}", shown(size, axes), shown(grid, axes));
-            return self.refuse(judge, &why, "a grid that lies inside the scan");
+            return refuse(why, "a grid that lies inside the scan");
         }
         let counts = measured.points();
         let is_uneven = measured.places.is_some();
@@ -197,7 +143,7 @@ impl Question<'_> {
         };
         let window = [window(0, begin), window(1, 0.0)];
         let repeats = if is_uneven { [false; 2] } else { self.is_period(size) };
-        Some(MeasuredSurface { heights: measured.heights, places: [x, y], window, repeats })
+        Ok(MeasuredSurface { heights: measured.heights, places: [x, y], window, repeats })
     }
 
     /// Whether a scan of this size is one period of the scene along x and along y: it goes on at its other end then.
@@ -209,29 +155,68 @@ impl Question<'_> {
     }
 
     /// Refuses points that are not the cells of the grid.
-    fn are_cells(&self, judge: &mut Judge, measured: &Measured) -> Option<()> {
+    fn are_cells(&self, measured: &Measured) -> Result<(), Mistake> {
         let Cells { count, size: grid, .. } = self.cells;
         let (points, size) = (measured.points(), measured.size);
-        let axes = if count[1] == 1 { 1 } else { 2 };
+        let axes = self.dimension().axes().len();
         let extent = size.map(|size| format!(" on {}", shown(size, axes))).unwrap_or_default();
         let counted = |counts: [usize; 2]| shown(counts.map(|count| count as f64), axes);
         let help = "resample = \"linear\" takes the grid from the middle of the scan, or give the grid the points of the scan";
         if points != count {
             let why =
                 format!("{} points{extent}, but the grid has {} cells", counted(points), counted(count));
-            return self.refuse(judge, &why, help);
+            return refuse(why, help);
         }
         if measured.places.is_some() {
-            return self.refuse(judge, "the points of this line scan are not evenly spaced", help);
+            return refuse("the points of this line scan are not evenly spaced", help);
         }
         if let (Some(size), Some(grid)) = (size, grid)
             && (0..axes).any(|axis| (size[axis] / grid[axis] - 1.0).abs() > SPACING)
         {
             let why = format!("the scan is {}, and the grid {}", shown(size, axes), shown(grid, axes));
-            return self.refuse(judge, &why, help);
+            return refuse(why, help);
         }
-        Some(())
+        Ok(())
     }
+}
+
+/// Keeps a part of the scan.
+fn kept(measured: &mut Measured, cut: &At<Vec<[f64; 2]>>) -> Result<(), Mistake> {
+    let refuse = |why: String, help| Err(Mistake::new(format!(".cut: {why}"), help).at(cut.span()));
+    let size = size_for("cut", measured.size)?;
+    let counts = measured.points();
+    let axes = Dimension::of(counts).axes().len();
+    if cut.len() != axes {
+        let why = format!("{} pairs of from and to, wanted {axes}", cut.len());
+        return refuse(why, "cut = [[x from, x to], [y from, y to]]; of a line scan [[from, to]]");
+    }
+    let mut kept = [0..counts[0], 0..counts[1]];
+    let mut sides = size;
+    for (axis, &[from, to]) in cut.iter().enumerate() {
+        let spacing = size[axis] / counts[axis] as f64;
+        let index = |at: f64| (at / spacing).round();
+        let [first, end] = [index(from), index(to)];
+        if !(first >= 0.0 && end >= first + 2.0 && end <= counts[axis] as f64) {
+            let why = format!(
+                "from {from} to {to} along {}, of a scan of 0 to {} with points {spacing} apart",
+                ["x", "y"][axis],
+                size[axis]
+            );
+            return refuse(why, "at least two points inside the scan");
+        }
+        kept[axis] = first as usize..end as usize;
+        sides[axis] = spacing * (end - first);
+    }
+    let [x, y] = kept;
+    measured.heights = measured.heights.slice(s![x, y]).to_owned();
+    measured.size = Some(sides);
+    Ok(())
+}
+
+/// The size, which something that is asked for needs.
+fn size_for(what: &str, size: Option<[f64; 2]>) -> Result<[f64; 2], Mistake> {
+    let why = format!("{what}: nothing says how large the scan is");
+    size.ok_or_else(|| wrong(why, "size = [x, y] [length], of a line scan one length"))
 }
 
 /// Numbers along the axes, as `a x b`.

@@ -10,7 +10,7 @@ const WAVELENGTH: Range = Range::POSITIVE.words("must be a positive finite lengt
 /// What is done to measured heights, in this order: holes filled, a part cut, the trend removed, filtered, resampled.
 #[derive(Table, JsonSchema)]
 #[schemars(deny_unknown_fields)]
-pub(in crate::case) struct TreatmentFile {
+pub struct TreatmentFile {
     /// Channel of an instrument's file that has several, by its name. Default: its first with heights.
     pub channel: Option<At<String>>,
     /// Side lengths of the scan along x and y [length], as many spacings of its points as points; one length of a line scan. Default: those
@@ -38,7 +38,7 @@ pub(in crate::case) struct TreatmentFile {
 #[derive(Debug, Clone, Copy, Table, JsonSchema)]
 #[expected("two side lengths [x, y], or one of a line scan")]
 #[schemars(untagged, rename = "ScanSizeSchema", description = "")]
-pub(in crate::case) enum ScanSizeFile {
+pub enum ScanSizeFile {
     Sides([f64; 2]),
     Line(f64),
 }
@@ -46,7 +46,7 @@ pub(in crate::case) enum ScanSizeFile {
 /// How holes are filled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Table, JsonSchema)]
 #[schemars(rename_all = "lowercase", description = "")]
-pub(in crate::case) enum Fill {
+pub enum Fill {
     None,
     Harmonic,
 }
@@ -54,7 +54,7 @@ pub(in crate::case) enum Fill {
 /// How points become cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Table, JsonSchema)]
 #[schemars(rename_all = "lowercase", description = "")]
-pub(in crate::case) enum Resample {
+pub enum Resample {
     None,
     Linear,
 }

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::half_space::{Body, ContactPair};
 use crate::document::Table;
-use crate::model::{Body, ContactPair};
 
 /// One of the two bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, Table, JsonSchema)]

@@ -17,3 +17,6 @@ pub struct Scan {
     /// Who read the file, its format and its channel, in words.
     pub read_by: String,
 }
+
+/// Reads heights of an instrument's file, by its name and that of a channel.
+pub type ReadScan<'a> = dyn Fn(&str, Option<&str>) -> Result<Scan, String> + 'a;
