@@ -37,6 +37,9 @@ pub(super) struct Change {
     /// Depth worn off, and what has been collected to be worn off; nothing where nothing wears.
     pub worn: Vec<f64>,
     pub collected: Vec<f64>,
+    /// What friction follows in each cell, and what has been collected of it since the cycle began; nothing where friction does not evolve.
+    pub slipped: Vec<f64>,
+    pub slipping: Vec<f64>,
     /// Slip of the increment; nothing where nobody asks for it.
     pub slip: Tangential,
     /// Rotations times the length.
@@ -67,6 +70,8 @@ impl Change {
             drift: tangential(),
             worn: Vec::new(),
             collected: Vec::new(),
+            slipped: Vec::new(),
+            slipping: Vec::new(),
             slip: [Vec::new(), Vec::new()],
             motions: [0.0; MOTIONS],
             strain: [0.0; 2],
@@ -83,7 +88,7 @@ impl Change {
     /// All its numbers, part by part.
     pub fn parts(&self) -> impl Iterator<Item = &[f64]> {
         let Self { shear, slid, drift, slip, reached, .. } = self;
-        let worn = [&self.worn, &self.collected];
+        let worn = [&self.worn, &self.collected, &self.slipped, &self.slipping];
         let fields = [&self.pressure, &self.gap]
             .into_iter()
             .chain(shear)
@@ -104,43 +109,18 @@ impl Change {
         Self { worn: vec![0.0; cells], collected: vec![0.0; cells], ..self }
     }
 
+    /// The same of surfaces whose friction evolves.
+    #[must_use]
+    pub fn of_evolution(self, evolves: bool) -> Self {
+        let cells = if evolves { self.gap.len() } else { 0 };
+        Self { slipped: vec![0.0; cells], slipping: vec![0.0; cells], ..self }
+    }
+
     /// The same of which slip is asked for.
     #[must_use]
     pub fn of_slip(self, asked: bool) -> Self {
         let cells = if asked { self.gap.len() } else { 0 };
         Self { slip: [vec![0.0; cells], vec![0.0; cells]], ..self }
-    }
-
-    /// Ends a block of cycles, of which the one that was computed stands for all: each takes off what that has collected, dissipates its energy,
-    /// leaves as much unresolved, and stores nothing.
-    pub fn end_block(&mut self, cycles: usize) {
-        let (cycles, others) = (cycles as f64, cycles as f64 - 1.0);
-        for ((worn, gap), more) in self.worn.iter_mut().zip(&mut self.gap).zip(&self.collected) {
-            *worn += cycles * more;
-            *gap += cycles * more;
-        }
-        self.collected.fill(0.0);
-        let [dissipated, unresolved, by_bulk] = OF_CYCLE.map(|place| others * self.energies[place]);
-        self.energies[DISSIPATED] += dissipated;
-        self.energies[UNRESOLVED] += unresolved;
-        self.energies[EXTERNAL] += dissipated + unresolved;
-        self.energies[OF_BULK] += by_bulk;
-        for place in OF_CYCLE {
-            self.energies[place] = 0.0;
-        }
-    }
-
-    /// Backwards.
-    pub fn end_block_transposed(&mut self, cycles: usize) {
-        let (cycles, others) = (cycles as f64, cycles as f64 - 1.0);
-        for ((more, worn), gap) in self.collected.iter_mut().zip(&self.worn).zip(&self.gap) {
-            *more = cycles * (worn + gap);
-        }
-        let of = |energy: usize| self.energies[energy];
-        let of_cycle = [of(DISSIPATED) + of(EXTERNAL), of(UNRESOLVED) + of(EXTERNAL), of(OF_BULK)];
-        for (place, of) in OF_CYCLE.into_iter().zip(of_cycle) {
-            self.energies[place] = others * of;
-        }
     }
 
     /// Whether all are zero.

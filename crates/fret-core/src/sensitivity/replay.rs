@@ -81,6 +81,7 @@ fn solved(
         area: scene.area(),
         block: snapshot.block,
         opens: snapshot.has_worn(last),
+        slipped: snapshot.slipped.clone(),
         zone,
         motions,
         strain: scene.strain.under(load.step.bulk_stress),
