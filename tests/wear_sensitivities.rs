@@ -241,6 +241,40 @@ fn wear_at_the_rim_is_differentiated() {
     }
 }
 
+/// Debris that stays and flows out with the slip, of one coefficient and of layers, in jumps: by its fraction and its outflow length, too.
+#[test]
+fn wear_with_debris_is_differentiated() {
+    let debris = "[wear.debris]\nfraction = <f>\noutflow_length = <L>\n[solver]";
+    let layered = WORN
+        .replace("poisson = 0.35 }", "poisson = 0.35, wear_coefficient = <k> }")
+        .replace("poisson = 0.3 }", "poisson = 0.3, wear_coefficient = 0.1 }")
+        .replace("coefficient = <k>\n[solver]", "every = 2\nlargest_step = 1.0\n[solver]")
+        .replace("cycles = 3", "cycles = 4");
+    let mut numbers = [
+        &WORN_NUMBERS[..],
+        &[("f", 0.6, "wear.debris.fraction"), ("L", 0.05, "wear.debris.outflow_length")],
+    ]
+    .concat();
+    for (text, thickness, path) in
+        [(WORN, 0.4, "wear.coefficient"), (&layered, FILM, "lower.coatings[0].wear_coefficient")]
+    {
+        (numbers[0].1, numbers[5].2) = (thickness, path);
+        let text = text.replace("<law>", "energy").replace("[solver]", debris);
+        let columns = [
+            "worn_volume",
+            "max_worn_depth",
+            "max_pressure",
+            "approach",
+            "dissipated_energy",
+            "external_work",
+            "unresolved_energy",
+            "wear_work",
+        ];
+        let worst = Written { text: &text, numbers: &numbers }.worst(&columns);
+        assert!(worst < 1e-5, "{path}: {worst:e}");
+    }
+}
+
 /// What has no derivative, or is not in the case, is refused by its name.
 #[test]
 fn numbers_that_the_surfaces_do_not_have_are_refused() {
@@ -255,7 +289,8 @@ fn numbers_that_the_surfaces_do_not_have_are_refused() {
     );
     for (text, by, word) in [
         (&text, "lower.coatings[0].wear_coefficient", "layers of the case have none"),
-        (&text, "wear.rim.width", "the case has none"),
+        (&text, "wear.rim.width", "no wear.rim"),
+        (&text, "wear.debris.fraction", "no wear.debris"),
         (&text, "friction.evolution.last", "does not evolve"),
         (&layered, "wear.coefficient", "each layer has its own"),
         (&layered, "lower.coatings[0].wear_coefficient", "does not wear"),
@@ -274,7 +309,7 @@ fn numbers_that_the_surfaces_do_not_have_are_refused() {
     }
     let message = found(&planned(&evolves), &["friction_coefficient"], &[]).unwrap_err().to_string();
     assert!(message.contains("differs from cell to cell"), "{message}");
-    let debris = text.replace("[solver]", "[wear.debris]\nfraction = 0.5\n[solver]");
+    let debris = text.replace("[solver]", "[wear.debris]\nfraction = 0.5\nstiffness = 1.0\n[solver]");
     let message = found(&planned(&debris), &["max_pressure"], &[]).unwrap_err().to_string();
     assert!(message.contains("wear.debris"), "{message}");
 }

@@ -32,6 +32,8 @@ pub(super) struct After<'a> {
     energies: Energies<'a>,
     slip: Option<Slip>,
     wear: Option<Collected>,
+    /// The distance that is slipped, where debris flows out by it.
+    path: Option<Collected>,
     /// What friction follows, where it evolves.
     driver: Option<Collected>,
     goes_on: bool,
@@ -61,12 +63,13 @@ impl<'a> After<'a> {
         let (states, friction) = ([now, before], (law, rule));
         let wear = scene.plan.case.wear.as_ref();
         let wear = wear.map(|of| Collected::of_wear(of, scene, states, friction));
+        let path = scene.has_debris().then(|| Collected::of_path(scene, states, friction));
         let evolution = scene.plan.case.friction_evolution.as_ref();
         let driver = evolution.and_then(|of| Collected::of_evolution(of, scene, states, friction));
         let slip = scene.tells_slip.then(|| Slip::new(scene, [now, before], (law, rule)));
         let contact = &now.contact;
-        let block = (now.block > 0).then(|| Block::new(scene, [&before.worn, &now.worn], now.block));
-        Self { scene, contact, forces, entered, energies, slip, wear, driver, goes_on, block }
+        let block = (now.block > 0).then(|| Block::new(scene, [before, now], now.block));
+        Self { scene, contact, forces, entered, energies, slip, wear, path, driver, goes_on, block }
     }
 
     /// Completes the changes of `next`, of which the loads are known.
@@ -84,8 +87,8 @@ impl<'a> After<'a> {
         let [normal, along_x, along_y] = &solution.displacements;
         for cell in 0..scene.region.len() {
             let place = scene.place(cell);
-            let worn = before.worn.get(cell).copied().unwrap_or(0.0);
-            next.gap[cell] = drive.gap[cell] + worn + normal[cell] - deep_by(&solution.motions, place);
+            next.gap[cell] =
+                drive.gap[cell] + before.opened(cell) + normal[cell] - deep_by(&solution.motions, place);
             if scene.is_frictional() {
                 let [x, y] = moved_by(&solution.motions, place);
                 next.slid[0][cell] = x - along_x[cell] - next.strain[0] * place[0];
@@ -108,6 +111,12 @@ impl<'a> After<'a> {
             next.collected = collected;
             next.worn.clone_from(&before.worn);
         }
+        if let Some(slipped) = &self.path {
+            let mut path = before.path.clone();
+            slipped.forward(&Inputs { before, next, solution, paths, friction }, [0.0; OF_WEAR], &mut path);
+            next.path = path;
+            next.debris.clone_from(&before.debris);
+        }
         if scene.evolves() {
             let mut slipping = before.slipping.clone();
             if let Some(driver) = &self.driver {
@@ -118,7 +127,7 @@ impl<'a> After<'a> {
             next.slipped.clone_from(&before.slipped);
         }
         if let Some(block) = &self.block {
-            block.forward(next, &drive.layers);
+            block.forward(next, &drive.wear, &drive.layers);
         }
         let forces = scene.resultants([pressure, x, y]);
         next.reached = scene.reached(forces, &solution.motions, scene.springs());
@@ -171,7 +180,7 @@ impl<'a> After<'a> {
             motions: [0.0; MOTIONS],
         };
         if let Some(block) = &self.block {
-            block.transposed(next, &mut drive.layers);
+            block.transposed(next, &mut drive.wear, &mut drive.layers);
         }
         if let Some(wear) = &self.wear {
             add_scaled(&mut before.worn, 1.0, &next.worn);
@@ -180,6 +189,14 @@ impl<'a> After<'a> {
             let Drive { friction, wear: numbers, .. } = drive;
             let mut to = Outputs { before, next, solution: &mut solution, paths, friction };
             wear.transposed(&collected, &mut to, numbers);
+        }
+        if let Some(slipped) = &self.path {
+            add_scaled(&mut before.debris, 1.0, &next.debris);
+            let path = std::mem::take(&mut next.path);
+            add_scaled(&mut before.path, 1.0, &path);
+            let Drive { friction, .. } = drive;
+            let mut to = Outputs { before, next, solution: &mut solution, paths, friction };
+            slipped.transposed(&path, &mut to, &mut [0.0; OF_WEAR]);
         }
         if scene.evolves() {
             add_scaled(&mut before.slipped, 1.0, &next.slipped);
@@ -204,8 +221,8 @@ impl<'a> After<'a> {
         }
         self.contact.cells().for_each(|cell| next.gap[cell] = 0.0);
         add_scaled(&mut drive.gap, 1.0, &next.gap);
-        if !before.worn.is_empty() {
-            add_scaled(&mut before.worn, 1.0, &next.gap);
+        for (cell, of) in next.gap.iter().enumerate() {
+            before.add_opened(cell, *of);
         }
         add_scaled(&mut solution.displacements[0], 1.0, &next.gap);
         let mut signs = [-1.0, -1.0, -1.0, 0.0, 0.0, 0.0];

@@ -2,7 +2,11 @@
 //! stands for. The formulas are those of the run (`run/wear.rs`, `run/evolving.rs`).
 
 use super::change::{Change, DISSIPATED, EXTERNAL, OF_BULK, OF_CYCLE, UNRESOLVED};
+use super::collected::{FRACTION, OF_WEAR};
 use super::scene::Scene;
+use super::settling::Settling;
+use super::solved::Solved;
+use crate::fields::{add_scaled, dot};
 use crate::model::DepthSlopes;
 
 /// A cell that wears through layers.
@@ -20,18 +24,20 @@ pub(super) struct Block {
     cycles: usize,
     /// Cells that wear through layers, each by its own coefficient; `None` where one coefficient holds.
     layers: Option<Vec<Through>>,
+    /// Debris that stays.
+    settling: Option<Settling>,
 }
 
 impl Block {
-    /// That of so many cycles, with the depths before and after in the cells of the region; none where nothing has worn.
-    pub fn new(scene: &Scene<'_>, [before, after]: [&[f64]; 2], cycles: usize) -> Self {
+    /// That of so many cycles between two states.
+    pub fn new(scene: &Scene<'_>, [before, after]: [&Solved; 2], cycles: usize) -> Self {
         let layers = scene.plan.case.wear.as_ref().and_then(|wear| wear.layers.as_ref());
-        let through = |(cell, after): (usize, &f64)| {
-            let before = before.get(cell).copied().unwrap_or(0.0);
-            if *after <= before {
+        let through = |(cell, last): (usize, &f64)| {
+            let first = before.worn.get(cell).copied().unwrap_or(0.0);
+            if *last <= first {
                 return None;
             }
-            let [first, last] = [before, *after].map(|depth| layers.map(|layers| layers.slopes_at(depth)));
+            let [first, last] = [first, *last].map(|depth| layers.map(|layers| layers.slopes_at(depth)));
             let (first, last): (DepthSlopes, DepthSlopes) = first.zip(last)?;
             // At the same depth with another number the work before is another one.
             let by_depth = last.by_work / first.by_work;
@@ -39,30 +45,37 @@ impl Block {
             let by_layers = both.map(|(first, last)| [0, 1].map(|of| last[of] - by_depth * first[of]));
             Some(Through { cell, by_depth, by_work: last.by_work, by_layers: by_layers.collect() })
         };
-        let layers = layers.map(|_| after.iter().enumerate().filter_map(through).collect());
-        Self { cycles, layers }
+        let layers = layers.map(|_| after.worn.iter().enumerate().filter_map(through).collect());
+        Self { cycles, layers, settling: Settling::new(scene, [before, after], cycles) }
     }
 
     /// Changes what is left behind: surfaces wear and rub on; as many cycles dissipate the energy of one, leave as much unresolved, and store nothing.
-    /// `layers`: changes of coefficient and thickness of each layer.
-    pub fn forward(&self, change: &mut Change, layers: &[[f64; 2]]) {
+    /// `wear`: changes of the numbers of the wear rule; `layers`: of coefficient and thickness of each layer.
+    pub fn forward(&self, change: &mut Change, wear: &[f64; OF_WEAR], layers: &[[f64; 2]]) {
         let (cycles, others) = (self.cycles as f64, self.cycles as f64 - 1.0);
-        let Change { worn, gap, collected, slipped, slipping, energies, .. } = change;
+        let Change { worn, gap, collected, slipped, slipping, debris, path, energies, .. } = change;
+        let mut more: Vec<f64> = Vec::new();
         if let Some(through) = &self.layers {
+            more.resize(worn.len(), 0.0);
             for Through { cell, by_depth, by_work, by_layers } in through {
-                let by_numbers: f64 =
-                    by_layers.iter().flatten().zip(layers.iter().flatten()).map(|(by, of)| by * of).sum();
-                let more = (by_depth - 1.0) * worn[*cell] + by_work * cycles * collected[*cell] + by_numbers;
-                worn[*cell] += more;
-                gap[*cell] += more;
+                let by_numbers = dot(by_layers.as_flattened(), layers.as_flattened());
+                more[*cell] =
+                    (by_depth - 1.0) * worn[*cell] + by_work * cycles * collected[*cell] + by_numbers;
             }
         } else {
-            for ((worn, gap), more) in worn.iter_mut().zip(gap).zip(&*collected) {
-                *worn += cycles * more;
-                *gap += cycles * more;
-            }
+            more.extend(collected.iter().map(|collected| cycles * collected));
+        }
+        if let Some(settling) = &self.settling {
+            let thicker = settling.forward((debris, path), &more, [wear[FRACTION], wear[FRACTION + 1]]);
+            add_scaled(debris, 1.0, &thicker);
+            add_scaled(gap, -1.0, &thicker);
+        }
+        for ((worn, gap), more) in worn.iter_mut().zip(gap).zip(&more) {
+            *worn += more;
+            *gap += more;
         }
         collected.fill(0.0);
+        path.fill(0.0);
         slipped.iter_mut().zip(&*slipping).for_each(|(slipped, more)| *slipped += cycles * more);
         slipping.fill(0.0);
         let [dissipated, unresolved, by_bulk] = OF_CYCLE.map(|place| others * energies[place]);
@@ -75,24 +88,26 @@ impl Block {
         }
     }
 
-    /// Backwards: adds to those of the layers.
-    pub fn transposed(&self, change: &mut Change, layers: &mut [[f64; 2]]) {
+    /// Backwards: adds to the numbers of the wear rule and to those of the layers.
+    pub fn transposed(&self, change: &mut Change, wear: &mut [f64; OF_WEAR], layers: &mut [[f64; 2]]) {
         let (cycles, others) = (self.cycles as f64, self.cycles as f64 - 1.0);
-        let Change { worn, gap, collected, slipped, slipping, energies, .. } = change;
+        let Change { worn, gap, collected, slipped, slipping, debris, path, energies, .. } = change;
+        let mut more: Vec<f64> = worn.iter().zip(&*gap).map(|(worn, gap)| worn + gap).collect();
+        path.fill(0.0);
+        if let Some(settling) = &self.settling {
+            let thicker: Vec<f64> = debris.iter().zip(&*gap).map(|(debris, gap)| debris - gap).collect();
+            settling.transposed(&thicker, (debris, path), &mut more, &mut wear[FRACTION..]);
+        }
         if let Some(through) = &self.layers {
             collected.fill(0.0);
             for Through { cell, by_depth, by_work, by_layers } in through {
-                let of = worn[*cell] + gap[*cell];
+                let of = more[*cell];
                 collected[*cell] = by_work * cycles * of;
                 worn[*cell] += (by_depth - 1.0) * of;
-                for (layer, by) in layers.iter_mut().flatten().zip(by_layers.iter().flatten()) {
-                    *layer += by * of;
-                }
+                add_scaled(layers.as_flattened_mut(), of, by_layers.as_flattened());
             }
         } else {
-            for ((more, worn), gap) in collected.iter_mut().zip(&*worn).zip(&*gap) {
-                *more = cycles * (worn + gap);
-            }
+            collected.iter_mut().zip(&more).for_each(|(collected, more)| *collected = cycles * more);
         }
         slipping.iter_mut().zip(&*slipped).for_each(|(more, slipped)| *more = cycles * slipped);
         let of = |energy: usize| energies[energy];

@@ -45,7 +45,7 @@ pub(super) enum What {
     Shape { index: usize, number: &'static str },
     /// A stiffness of the machine: normal, along x, along y, or along both.
     Rig { normal: bool, along: [bool; 2] },
-    /// The wear coefficient, width or part inside of the rim, by their places among the numbers of a wear rule.
+    /// The wear coefficient, a number of the rim or of debris, by their places among the numbers of a wear rule.
     Wear(usize),
     /// The wear coefficient of a layer, by its place among those that wear, first those of the lower body.
     LayerWear(usize),

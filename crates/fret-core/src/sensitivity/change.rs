@@ -37,6 +37,9 @@ pub(super) struct Change {
     /// Depth worn off, and what has been collected to be worn off; nothing where nothing wears.
     pub worn: Vec<f64>,
     pub collected: Vec<f64>,
+    /// Thickness of the debris, and what has been slipped since the cycle began; nothing where no debris stays.
+    pub debris: Vec<f64>,
+    pub path: Vec<f64>,
     /// What friction follows in each cell, and what has been collected of it since the cycle began; nothing where friction does not evolve.
     pub slipped: Vec<f64>,
     pub slipping: Vec<f64>,
@@ -70,6 +73,8 @@ impl Change {
             drift: tangential(),
             worn: Vec::new(),
             collected: Vec::new(),
+            debris: Vec::new(),
+            path: Vec::new(),
             slipped: Vec::new(),
             slipping: Vec::new(),
             slip: [Vec::new(), Vec::new()],
@@ -88,7 +93,7 @@ impl Change {
     /// All its numbers, part by part.
     pub fn parts(&self) -> impl Iterator<Item = &[f64]> {
         let Self { shear, slid, drift, slip, reached, .. } = self;
-        let worn = [&self.worn, &self.collected, &self.slipped, &self.slipping];
+        let worn = [&self.worn, &self.collected, &self.debris, &self.path, &self.slipped, &self.slipping];
         let fields = [&self.pressure, &self.gap]
             .into_iter()
             .chain(shear)
@@ -107,6 +112,25 @@ impl Change {
     pub fn of_wear(self, wears: bool) -> Self {
         let cells = if wears { self.gap.len() } else { 0 };
         Self { worn: vec![0.0; cells], collected: vec![0.0; cells], ..self }
+    }
+
+    /// The same of surfaces between which debris stays.
+    #[must_use]
+    pub fn of_debris(self, stays: bool) -> Self {
+        let cells = if stays { self.gap.len() } else { 0 };
+        Self { debris: vec![0.0; cells], path: vec![0.0; cells], ..self }
+    }
+
+    /// By how much the gap has opened in a cell: by what has worn off less the debris that lies there.
+    pub fn opened(&self, cell: usize) -> f64 {
+        let of = |field: &[f64]| field.get(cell).copied().unwrap_or(0.0);
+        of(&self.worn) - of(&self.debris)
+    }
+
+    /// Backwards: adds what the gap of a cell counts.
+    pub fn add_opened(&mut self, cell: usize, of: f64) {
+        self.worn.get_mut(cell).into_iter().for_each(|worn| *worn += of);
+        self.debris.get_mut(cell).into_iter().for_each(|debris| *debris -= of);
     }
 
     /// The same of surfaces whose friction evolves.

@@ -20,8 +20,10 @@ pub(super) enum Measure {
     Pressure,
 }
 
-/// Numbers of a wear rule: the coefficient, and width and part in force inside of the rim.
-pub(super) const OF_WEAR: usize = 3;
+/// Numbers of a wear rule: the coefficient, width and part in force inside of the rim, fraction and outflow length of debris.
+pub(super) const OF_WEAR: usize = 5;
+/// The place of the fraction, beside which the outflow length stands.
+pub(super) const FRACTION: usize = 3;
 
 /// What a cell collects for a coefficient of one, and the derivatives of that by slip, shear before and after, bounds before and after,
 /// pressures before and after; by width and inside of the rim.
@@ -56,6 +58,11 @@ impl Collected {
             WearLaw::Archard => Measure::Pressure,
         };
         Self::new((measure, of.coefficient.unwrap_or(1.0), true), scene, states, friction)
+    }
+
+    /// The distance that is slipped.
+    pub fn of_path(scene: &Scene<'_>, states: [&Solved; 2], friction: (&CoulombFriction, &Rule)) -> Self {
+        Self::new((Measure::Way, 1.0, false), scene, states, friction)
     }
 
     /// What friction follows; `None` where that is the number of cycles.
@@ -149,7 +156,7 @@ impl Collected {
             };
             let ([x0, y0], [x1, y1]) = (at(&before.shear, cell), at(&next.shear, cell));
             let inputs = [slip(0), slip(1), x0, y0, x1, y1, bound(0), bound(1), pressures[0], pressures[1]];
-            let [coefficient, width, inside] = numbers;
+            let [coefficient, width, inside, ..] = numbers;
             let at_rim = by_rim[0] * width + by_rim[1] * inside;
             collected[cell] += self.coefficient * (product(by, &inputs) + at_rim) + coefficient * depth;
         }

@@ -45,7 +45,7 @@ pub(super) struct Drive {
     pub friction: FrictionChange,
     /// Compliances of the machine: normal, along x and y [length/force].
     pub rig: [f64; 3],
-    /// Wear coefficient [1/pressure], width [length] and part inside [-] of the rim.
+    /// Wear coefficient [1/pressure], width [length] and part inside [-] of the rim, fraction [-] and outflow length [length] of debris.
     pub wear: [f64; OF_WEAR],
     /// Wear coefficient [1/pressure] and thickness [length] of each layer, first those of the lower body; none where one coefficient holds.
     pub layers: Vec<[f64; 2]>,
@@ -127,7 +127,7 @@ impl<'a> Contact<'a> {
     pub fn asked(&self, before: &Change, next: &Change, (paths, drive): (&PathChange, &Drive)) -> Asked {
         let mut asked = zeros(self.cells.len());
         for ((place, cell), does) in self.set.cells().enumerate().zip(&self.cells) {
-            asked[0][place] = -drive.gap[cell] - before.worn.get(cell).copied().unwrap_or(0.0);
+            asked[0][place] = -drive.gap[cell] - before.opened(cell);
             let (slid, ahead) = (at(&before.slid, cell), at(&paths.ahead, place));
             let strained = |axis: usize| next.strain[axis] * does.place[axis];
             let [x, y] = [0, 1].map(|axis| -slid[axis] - ahead[axis] - strained(axis));
@@ -158,9 +158,7 @@ impl<'a> Contact<'a> {
         let [normal, x, y] = self.seen(&of.displacements);
         for (place, cell) in self.set.cells().enumerate() {
             drive.gap[cell] -= normal[place];
-            if let Some(worn) = before.worn.get_mut(cell) {
-                *worn -= normal[place];
-            }
+            before.add_opened(cell, -normal[place]);
             for (axis, along) in [&x, &y].into_iter().enumerate() {
                 before.slid[axis][cell] -= along[place];
                 next.strain[axis] -= along[place] * self.cells[place].place[axis];

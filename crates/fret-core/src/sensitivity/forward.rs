@@ -157,9 +157,9 @@ pub(super) fn forward(
             let rubbed = scene.evolves() && last.is_some_and(|last| last.block > 0);
             let begins_with_friction =
                 rubbed || next.load.begins && scene.plan.case.stages[stage].friction.is_some();
-            let worn = [past[0].worn.clone(), step.worn_in(scene.region)];
-            let block =
-                (step.block > 0).then(|| Block::new(scene, worn.each_ref().map(Vec::as_slice), step.block));
+            let before = past[0].clone();
+            past[0].stood(step, last, scene.region);
+            let block = (step.block > 0).then(|| Block::new(scene, [&before, &past[0]], step.block));
             for (course, numbers) in courses.iter_mut().zip(&numbers) {
                 let mut after = course.before.clone();
                 next.load.forward(&course.before, numbers, &mut after);
@@ -175,10 +175,11 @@ pub(super) fn forward(
                 (course.before.start, course.before.held) = (after.start, after.held);
                 course.before.slip.iter_mut().for_each(|slip| slip.fill(0.0));
                 if let Some(block) = &block {
-                    block.forward(&mut course.before, &course.parameter.change_of_layers(&scene.plan.case));
+                    let (case, parameter) = (&scene.plan.case, course.parameter);
+                    let (wear, layers) = (parameter.change_of_wear(), parameter.change_of_layers(case));
+                    block.forward(&mut course.before, &wear, &layers);
                 }
             }
-            past[0].stood(step, last, scene.region);
         }
         let changes: Vec<&Change> = courses.iter().map(|course| &course.before).collect();
         if visit((step, &past[0]), &changes).is_break() {

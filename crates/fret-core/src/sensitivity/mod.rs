@@ -44,6 +44,7 @@ mod row;
 mod ruiz;
 mod rule;
 mod scene;
+mod settling;
 mod slip;
 mod snapshot;
 mod solved;

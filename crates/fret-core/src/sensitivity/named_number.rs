@@ -1,6 +1,7 @@
 //! Numbers of a case, found by their paths as a case and a sweep write them; or why a history does not depend on one smoothly.
 
 use super::case_number::{BodyNumber, LayerNumber, ResidualNumber, SHAPE_NUMBERS, What};
+use super::collected::FRACTION;
 use crate::case::Case;
 use crate::model::controls::{Form, Kind, ways};
 use crate::model::stage::{Path, StageControl};
@@ -25,7 +26,7 @@ pub(super) fn number_at(path: &str, case: &Case) -> Found {
             evolution(case, (key, row), column)
         }
         [("wear", None), ("coefficient", None)] => wear(case),
-        [("wear", None), ("rim", None), (number, None)] => rim(case, number),
+        [("wear", None), (table, None), (number, None)] => third_body(case, table, number),
         [(body @ ("upper" | "lower"), None), ref layer @ .., ("wear_coefficient", None)] => {
             layer_wear(case, body == "upper", layer)
         }
@@ -106,11 +107,18 @@ fn wear(case: &Case) -> Found {
     Ok((What::Wear(0), wear.coefficient.ok_or("the case has none")?))
 }
 
-fn rim(case: &Case, number: &str) -> Found {
-    let rim = case.wear.as_ref().and_then(|wear| wear.rim).ok_or("the case has none")?;
-    match number {
-        "width" => Ok((What::Wear(1), rim.width)),
-        "interior" => Ok((What::Wear(2), rim.interior[0])),
+/// A number of the rim, or of the debris.
+fn third_body(case: &Case, table: &str, number: &str) -> Found {
+    let wear = case.wear.as_ref().ok_or("the case has none")?;
+    let none = || format!("the case has no wear.{table}");
+    match (table, number) {
+        ("rim", "width") => Ok((What::Wear(1), wear.rim.ok_or_else(none)?.width)),
+        ("rim", "interior") => Ok((What::Wear(2), wear.rim.ok_or_else(none)?.interior[0])),
+        ("debris", "fraction") => Ok((What::Wear(FRACTION), wear.debris.ok_or_else(none)?.fraction)),
+        ("debris", "outflow_length") => {
+            let length = wear.debris.ok_or_else(none)?.outflow_length;
+            Ok((What::Wear(FRACTION + 1), length.ok_or("no debris flows out")?))
+        }
         _ => Err(FORMS.to_owned()),
     }
 }

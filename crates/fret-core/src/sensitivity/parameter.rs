@@ -17,7 +17,7 @@ pub struct Parameter {
 }
 
 /// Numbers of the surfaces.
-const OF_SURFACES: [&str; 7] = [
+const OF_SURFACES: [&str; 9] = [
     "friction.coefficient",
     "friction.max_shear",
     "friction.evolution.last",
@@ -25,6 +25,8 @@ const OF_SURFACES: [&str; 7] = [
     "wear.coefficient",
     "wear.rim.width",
     "wear.rim.interior",
+    "wear.debris.fraction",
+    "wear.debris.outflow_length",
 ];
 
 impl Parameter {
@@ -155,7 +157,7 @@ impl Parameter {
         [of(normal, springs.normal), of(along[0], springs.tangential[0]), of(along[1], springs.tangential[1])]
     }
 
-    /// Derivatives of the numbers of the wear rule: coefficient, width and part inside of the rim.
+    /// Derivatives of the numbers of the wear rule: coefficient, width and part inside of the rim, fraction and outflow length of debris.
     pub(super) fn change_of_wear(&self) -> [f64; OF_WEAR] {
         std::array::from_fn(|number| f64::from(u8::from(self.what == What::Wear(number))))
     }

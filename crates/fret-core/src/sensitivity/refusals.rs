@@ -7,7 +7,7 @@ use super::objective::Objective;
 use super::parameter::Parameter;
 use crate::case::{Case, Stage, StageControl};
 use crate::kernel::uniform_response;
-use crate::model::{CoulombFriction, Integration};
+use crate::model::{CoulombFriction, Integration, WearRule};
 use crate::plan::{Coupling, Plan, Simplification};
 
 /// Whether derivatives are taken of the history of a plan.
@@ -21,8 +21,8 @@ pub(super) fn check(plan: &Plan) -> Result<(), SensitivityError> {
     let refusals = [
         (
             wears_otherwise(case),
-            "wear.thinning_tolerance and wear.debris",
-            "leave them out: coefficients of layers and wear.rim have derivatives",
+            "wear.thinning_tolerance and wear.debris.stiffness",
+            "leave them out: layers that wear and debris that does not give have derivatives",
         ),
         (case.hardness.is_some(), "hardness", without),
         (plan.moves, "kinematics.displacement = \"finite\"", without),
@@ -46,9 +46,10 @@ pub(super) fn check(plan: &Plan) -> Result<(), SensitivityError> {
     }
 }
 
-/// Whether worn surfaces have more than another gap: another elastic response, or debris between them.
+/// Whether worn surfaces respond otherwise than those before.
 fn wears_otherwise(case: &Case) -> bool {
-    case.wear.as_ref().is_some_and(|wear| wear.thinning_tolerance.is_some() || wear.debris.is_some())
+    let gives = |wear: &WearRule| wear.debris.is_some_and(|debris| debris.stiffness.is_some());
+    case.wear.as_ref().is_some_and(|wear| wear.thinning_tolerance.is_some() || gives(wear))
 }
 
 /// Whether the numbers and the results that are asked for have derivatives with the simplifications of a plan.

@@ -90,7 +90,15 @@ impl<'a> Scene<'a> {
     /// No change.
     pub fn no_change(&self) -> Change {
         let change = Change::none(self.region.len()).of_slip(self.tells_slip);
-        change.of_wear(self.plan.case.wear.is_some()).of_evolution(self.evolves())
+        change
+            .of_wear(self.plan.case.wear.is_some())
+            .of_debris(self.has_debris())
+            .of_evolution(self.evolves())
+    }
+
+    /// Whether debris stays between the surfaces.
+    pub fn has_debris(&self) -> bool {
+        self.plan.case.wear.as_ref().is_some_and(|wear| wear.debris.is_some())
     }
 
     /// Whether friction evolves.

@@ -41,6 +41,8 @@ pub(super) struct Solved {
     /// Depth worn off after it, and the area that a cell stands for; nothing where nothing wears.
     pub worn: Vec<f64>,
     pub area: f64,
+    /// Thickness of the debris after it [length]; nothing where none stays.
+    pub debris: Vec<f64>,
     /// Cycles of the block that ends with it, whose wear is taken off then, none where nothing ends; and whether that opens the gap.
     pub block: usize,
     pub opens: bool,
@@ -75,6 +77,7 @@ impl Solved {
             gap: scene.undeformed.clone(),
             undeformed: scene.undeformed.clone(),
             worn: Vec::new(),
+            debris: Vec::new(),
             area: scene.area(),
             block: 0,
             opens: false,
@@ -128,6 +131,7 @@ impl Solved {
         self.zone = step.in_region(region).1;
         self.opens = step.has_worn(last);
         self.worn = step.worn_in(region);
+        self.debris = step.debris_in(region);
         self.slipped.clone_from(&step.slipped);
     }
 

@@ -115,14 +115,14 @@ cycles = 4
 increments = 8
 ";
 
-/// The same through a film, by coefficients of layers and of both bodies, more at the rim; and with friction that follows the energy.
+/// The same through a film, by coefficients of layers and of both bodies, more at the rim; with debris that flows out, and friction that follows the energy.
 fn worn_through_layers() -> String {
     let layers = "lower]\ncoatings = [{ thickness = 1e-3, young = 3.0, poisson = 0.3, wear_coefficient = 0.3 }]\n\
                   substrate = { young = 1.0, poisson = 0.3, wear_coefficient = 0.1 }";
     WORN.replace("lower]\nsubstrate = { young = 1.0, poisson = 0.3 }", layers)
         .replace("rigid = true", "rigid = true\nwear_coefficient = 0.2")
         .replace("[wear]\ncoefficient = 0.3\n", "[wear]\n")
-        .replace("[solver]", "[wear.rim]\nwidth = 0.3\ninterior = 0.5\n[solver]")
+        .replace("[solver]", "[wear.rim]\nwidth = 0.3\ninterior = 0.5\n[wear.debris]\nfraction = 0.5\noutflow_length = 0.1\n[solver]")
         .replace(
             "[wear]",
             "evolution = { by = \"energy\", last = 0.5, scale = 2e-3, tolerance = 1.0 }\n[wear]",
@@ -143,7 +143,7 @@ fn fields(random: &mut Random, size: usize) -> Fields {
 
 /// No change, of surfaces that may wear and of which slip is asked for.
 fn no_change(cells: usize) -> Change {
-    Change::none(cells).of_wear(true).of_slip(true).of_evolution(true)
+    Change::none(cells).of_wear(true).of_debris(true).of_slip(true).of_evolution(true)
 }
 
 fn change(random: &mut Random, cells: usize) -> Change {
@@ -152,6 +152,8 @@ fn change(random: &mut Random, cells: usize) -> Change {
     Change {
         worn: vector(random, cells),
         collected: vector(random, cells),
+        debris: vector(random, cells),
+        path: vector(random, cells),
         slipped: vector(random, cells),
         slipping: vector(random, cells),
         slip,
@@ -468,7 +470,7 @@ impl Made {
 type Copies = fn(&mut Change, &Change);
 
 /// The blocks of a change.
-const BLOCKS: [(&str, Copies); 19] = [
+const BLOCKS: [(&str, Copies); 21] = [
     ("pressure", |to, of| to.pressure.clone_from(&of.pressure)),
     ("shear", |to, of| to.shear.clone_from(&of.shear)),
     ("gap", |to, of| to.gap.clone_from(&of.gap)),
@@ -477,6 +479,8 @@ const BLOCKS: [(&str, Copies); 19] = [
     ("slip", |to, of| to.slip.clone_from(&of.slip)),
     ("worn", |to, of| to.worn.clone_from(&of.worn)),
     ("collected", |to, of| to.collected.clone_from(&of.collected)),
+    ("debris", |to, of| to.debris.clone_from(&of.debris)),
+    ("path", |to, of| to.path.clone_from(&of.path)),
     ("slipped", |to, of| to.slipped.clone_from(&of.slipped)),
     ("slipping", |to, of| to.slipping.clone_from(&of.slipping)),
     ("motions", |to, of| to.motions = of.motions),
@@ -511,6 +515,7 @@ fn an_increment_goes_backwards_by_its_transpose_block_by_block() {
                 .map(|Made { before, former, drive, numbers }| {
                     let next = increment.forward(&mut equations, [before, former], (drive, numbers)).unwrap();
                     let next = if next.worn.is_empty() { next.of_wear(true) } else { next };
+                    let next = if next.debris.is_empty() { next.of_debris(true) } else { next };
                     if next.slipped.is_empty() { next.of_evolution(true) } else { next }
                 })
                 .collect();
