@@ -39,7 +39,7 @@ shift = [0.0, 0.0]
 increments = 2
 "#;
 /// Thickness of a film that wears through in some cells.
-const FILM: f64 = 1e-3;
+const FILM: f64 = 1.5e-4;
 const WORN_NUMBERS: [(&str, f64, &str); 9] = [
     ("h", 0.4, "lower.coatings[0].thickness"),
     ("E", 3.0, "lower.coatings[0].young"),
@@ -250,11 +250,9 @@ fn wear_with_debris_is_differentiated() {
         .replace("poisson = 0.3 }", "poisson = 0.3, wear_coefficient = 0.1 }")
         .replace("coefficient = <k>\n[solver]", "every = 2\nlargest_step = 1.0\n[solver]")
         .replace("cycles = 3", "cycles = 4");
-    let mut numbers = [
-        &WORN_NUMBERS[..],
-        &[("f", 0.6, "wear.debris.fraction"), ("L", 0.05, "wear.debris.outflow_length")],
-    ]
-    .concat();
+    let mut numbers =
+        [&WORN_NUMBERS[..], &[("f", 0.6, "wear.debris.fraction"), ("L", 0.05, "wear.debris.outflow_length")]]
+            .concat();
     for (text, thickness, path) in
         [(WORN, 0.4, "wear.coefficient"), (&layered, FILM, "lower.coatings[0].wear_coefficient")]
     {
