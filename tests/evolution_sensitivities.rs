@@ -84,7 +84,6 @@ fn friction_that_evolves_is_differentiated_through_its_memory() {
         let text = EVOLVES.replace("<law>", law);
         let written = Written { text: &text, numbers: &numbers };
         let worst = written.worst(&COLUMNS);
-        println!("{law}: {worst:e}");
         assert!(worst < 1e-5, "{law}: {worst:e}");
         // What the last stages dissipate and carry depends on all of the law.
         let found =

@@ -185,8 +185,9 @@ fn wear_through_layers_is_differentiated_by_coefficients_and_thicknesses() {
         let text = text.replace("[solver]", jumps);
         let written = Written { text: &text, numbers: &numbers };
         let history = Simulation::new(&written.plan(None)).run(&mut Silent).unwrap();
-        let film = &history.worn_by_layer;
-        println!("{law}: {film:?}");
+        // In some cells it has worn through, and what lies below it wears.
+        let film = history.worn_by_layer.unwrap().lower;
+        assert!(film.iter().all(|volume| *volume > 0.0), "{film:?}");
         let worst = written.worst(&columns);
         assert!(worst < 1e-5, "{law}: {worst:e}");
         let found = found(&written.plan(None), &["worn_volume"], &written.paths()).unwrap();

@@ -1,10 +1,11 @@
 //! From the solution of an increment's linear equations to all that it leaves behind, and back.
 
 use super::block::Block;
+use super::case_number::OF_WEAR;
 use super::cell::MOTIONS;
 use super::cell_rows::sums_with;
 use super::change::{Change, ENERGIES, Solution, add};
-use super::collected::{Collected, OF_WEAR};
+use super::collected::Collected;
 use super::contact::Drive;
 use super::energies::{Energies, Inputs, Outputs};
 use super::rule::{PathChange, Rule, combination, product};

@@ -3,8 +3,8 @@
 
 use std::ops::ControlFlow;
 
+use super::case_number::OF_WEAR;
 use super::change::Change;
-use super::collected::OF_WEAR;
 use super::constants::Constants;
 use super::contact::Drive;
 use super::error::SensitivityError;

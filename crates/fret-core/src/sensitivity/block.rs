@@ -1,8 +1,8 @@
 //! The end of a block of cycles, linearised: what one of them has collected is taken off the surfaces, and changes their friction, for all that it
 //! stands for. The formulas are those of the run (`run/wear.rs`, `run/evolving.rs`).
 
+use super::case_number::{FRACTION, OF_WEAR};
 use super::change::{Change, DISSIPATED, EXTERNAL, OF_BULK, OF_CYCLE, UNRESOLVED};
-use super::collected::{FRACTION, OF_WEAR};
 use super::scene::Scene;
 use super::settling::Settling;
 use super::solved::Solved;

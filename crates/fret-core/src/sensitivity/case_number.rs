@@ -60,3 +60,8 @@ pub(super) enum What {
 /// Numbers of shapes.
 pub(super) const SHAPE_NUMBERS: [&str; 7] =
     ["radius", "radius_x", "radius_y", "flat_radius", "edge_radius", "slope", "amplitude"];
+
+/// Numbers of a wear rule: the coefficient, width and part in force inside of the rim, fraction and outflow length of debris.
+pub(super) const OF_WEAR: usize = 5;
+/// The place of the fraction, beside which the outflow length stands.
+pub(super) const FRACTION: usize = 3;

@@ -1,6 +1,7 @@
 //! What an increment collects in each cell until a cycle, or a stage without cycles, ends: wear, and what friction follows; linearised. The formulas
 //! are those of the run (`run/slip_increment.rs`).
 
+use super::case_number::OF_WEAR;
 use super::energies::{Bound, Inputs, Outputs, shares_of_slip};
 use super::rule::{Rule, combination, product};
 use super::scene::Scene;
@@ -19,11 +20,6 @@ pub(super) enum Measure {
     /// The way times the pressure.
     Pressure,
 }
-
-/// Numbers of a wear rule: the coefficient, width and part in force inside of the rim, fraction and outflow length of debris.
-pub(super) const OF_WEAR: usize = 5;
-/// The place of the fraction, beside which the outflow length stands.
-pub(super) const FRACTION: usize = 3;
 
 /// What a cell collects for a coefficient of one, and the derivatives of that by slip, shear before and after, bounds before and after,
 /// pressures before and after; by width and inside of the rim.
@@ -86,8 +82,9 @@ impl Collected {
         [now, before]: [&Solved; 2],
         (law, rule): (&CoulombFriction, &Rule),
     ) -> Self {
-        let rim =
-            |solved: &Solved| scene.rim.as_ref().filter(|_| by_rim).map(|rim| scene.rim_slopes(rim, solved));
+        let rim = |solved: &Solved| {
+            scene.rim.as_ref().filter(|_| by_rim).map(|rim| scene.rim_slopes(rim, &solved.tractions[0]))
+        };
         let [rim_before, rim_now] = [rim(before), rim(now)];
         let in_force =
             |rim: &Option<Vec<[f64; 3]>>, cell: usize| rim.as_ref().map_or([1.0, 0.0, 0.0], |rim| rim[cell]);

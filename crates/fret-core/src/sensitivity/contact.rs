@@ -1,8 +1,8 @@
 //! What the cells of a contact do in an increment, and what its linearised equations ask for: right sides, from what changes besides the solution.
 
+use super::case_number::OF_WEAR;
 use super::cell::{Cell, MOTIONS, Prescribed, Shear};
 use super::change::{Change, Tangential};
-use super::collected::OF_WEAR;
 use super::fields::{Fields, zeros};
 use super::friction_change::FrictionChange;
 use super::loads::Load;

@@ -1,7 +1,6 @@
 //! Numbers of a case, found by their paths as a case and a sweep write them; or why a history does not depend on one smoothly.
 
-use super::case_number::{BodyNumber, LayerNumber, ResidualNumber, SHAPE_NUMBERS, What};
-use super::collected::FRACTION;
+use super::case_number::{BodyNumber, FRACTION, LayerNumber, ResidualNumber, SHAPE_NUMBERS, What};
 use crate::case::Case;
 use crate::model::controls::{Form, Kind, ways};
 use crate::model::stage::{Path, StageControl};

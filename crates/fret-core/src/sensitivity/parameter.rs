@@ -1,7 +1,6 @@
 //! What derivatives can be taken by: numbers of a case, named by their paths as a case writes them.
 
-use super::case_number::{BodyNumber, LayerNumber, ResidualNumber, SHAPE_NUMBERS, What};
-use super::collected::OF_WEAR;
+use super::case_number::{BodyNumber, LayerNumber, OF_WEAR, ResidualNumber, SHAPE_NUMBERS, What};
 use super::error::SensitivityError;
 use super::named_number::number_at;
 use crate::case::Case;

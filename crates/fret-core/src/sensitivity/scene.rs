@@ -11,7 +11,6 @@ use super::error::SensitivityError;
 use super::fields::Fields;
 use super::operators::{Made, Operators};
 use super::snapshot::Snapshot;
-use super::solved::Solved;
 use super::strain::Strain;
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceResponse};
 use crate::model::{ContactState, Rig, SurfaceGrid};
@@ -112,11 +111,12 @@ impl<'a> Scene<'a> {
         layers.map_or(0, |layers| layers.bodies().iter().map(|body| body.len()).sum())
     }
 
-    /// Part of the wear coefficient that is in force in each cell of the region, and its derivatives by width and inside of the rim.
-    pub fn rim_slopes(&self, rim: &OpenRim, solved: &Solved) -> Vec<[f64; 3]> {
+    /// Part of the wear coefficient that is in force in each cell of the region under pressures there, and its derivatives by width and inside of
+    /// the rim.
+    pub fn rim_slopes(&self, rim: &OpenRim, pressed: &[f64]) -> Vec<[f64; 3]> {
         // Beyond the region nothing touches.
         let mut pressure = Array2::zeros(self.grid.cells());
-        self.region.place(&solved.tractions[0], &mut pressure);
+        self.region.place(pressed, &mut pressure);
         self.region.gather_map(&rim.slopes(&pressure), |slopes| *slopes)
     }
 

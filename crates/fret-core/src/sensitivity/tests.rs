@@ -117,7 +117,7 @@ increments = 8
 
 /// The same through a film, by coefficients of layers and of both bodies, more at the rim; with debris that flows out, and friction that follows the energy.
 fn worn_through_layers() -> String {
-    let layers = "lower]\ncoatings = [{ thickness = 1e-3, young = 3.0, poisson = 0.3, wear_coefficient = 0.3 }]\n\
+    let layers = "lower]\ncoatings = [{ thickness = 1.5e-4, young = 3.0, poisson = 0.3, wear_coefficient = 0.3 }]\n\
                   substrate = { young = 1.0, poisson = 0.3, wear_coefficient = 0.1 }";
     WORN.replace("lower]\nsubstrate = { young = 1.0, poisson = 0.3 }", layers)
         .replace("rigid = true", "rigid = true\nwear_coefficient = 0.2")
