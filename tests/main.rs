@@ -19,6 +19,7 @@ mod conduction;
 mod coupled_friction;
 mod elastic_energy;
 mod error_bars;
+mod evolution_sensitivities;
 mod evolving_friction;
 mod field_sensitivities;
 mod first_law;

@@ -126,7 +126,10 @@ fn what_is_not_covered_is_refused() {
         assert!(found.contains(word) && found.contains(of), "{found}");
     }
     for (more, key) in [
-        ("[wear]\ncoefficient = 1e-13\n[wear.debris]\nfraction = 0.5\n", "[wear] beyond one coefficient"),
+        (
+            "[wear]\ncoefficient = 1e-13\n[wear.debris]\nfraction = 0.5\nstiffness = 1e12\n",
+            "wear.debris.stiffness",
+        ),
         ("[kinematics]\ndisplacement = \"finite\"\n", "kinematics"),
     ] {
         let found = message("max_pressure", "friction.coefficient", &planned(&format!("{text}{more}")));

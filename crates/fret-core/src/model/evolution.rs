@@ -67,6 +67,49 @@ impl EvolutionLaw {
         }
     }
 
+    /// How many numbers it has: coefficients at the start and at the end, and scale; of a table driver and coefficient, row by row.
+    pub fn numbers(&self) -> usize {
+        match self {
+            Self::Exponential { .. } => 3,
+            Self::Table(rows) => 2 * rows.len(),
+        }
+    }
+
+    /// Which of its numbers is the coefficient at the start.
+    pub fn first(&self) -> usize {
+        match self {
+            Self::Exponential { .. } => 0,
+            Self::Table(_) => 1,
+        }
+    }
+
+    /// Derivatives of the coefficient by the driver, and by its numbers; at a row of a table those behind it.
+    pub fn slopes_at(&self, first: f64, driver: f64) -> (f64, Vec<f64>) {
+        let mut by = vec![0.0; self.numbers()];
+        let by_driver = match self {
+            Self::Exponential { last, scale } => {
+                let stays = (-driver / scale).exp();
+                let slope = (last - first) * stays / scale;
+                by.copy_from_slice(&[stays, 1.0 - stays, -slope * driver / scale]);
+                slope
+            }
+            Self::Table(rows) => {
+                let next = rows.partition_point(|[x, _]| *x <= driver);
+                if let (true, Some([x1, y1])) = (next > 0, rows.get(next)) {
+                    let [x0, y0] = rows[next - 1];
+                    let (share, slope) = ((driver - x0) / (x1 - x0), (y1 - y0) / (x1 - x0));
+                    let ends = [slope * (share - 1.0), 1.0 - share, -slope * share, share];
+                    by[2 * (next - 1)..2 * (next + 1)].copy_from_slice(&ends);
+                    slope
+                } else {
+                    by[2 * next.max(1) - 1] = 1.0;
+                    0.0
+                }
+            }
+        };
+        (by_driver, by)
+    }
+
     /// How far the driver goes on from a value until the coefficient has changed by `change`; infinite where it never does.
     pub fn reach(&self, first: f64, driver: f64, change: f64) -> f64 {
         let now = self.at(first, driver);
@@ -170,6 +213,41 @@ mod tests {
     fn a_law_that_leads_nowhere_keeps_the_bits() {
         let law = EvolutionLaw::Exponential { last: 0.3, scale: 7.0 };
         assert!([0.0, 0.1, 5.0, 1e9].into_iter().all(|x| law.at(0.3, x) == 0.3));
+    }
+
+    /// Against differences by the driver and by every number, between rows. 1e-8: of smooth functions in steps of 1e-6.
+    #[test]
+    fn a_coefficient_changes_by_every_number_of_its_law() {
+        let exponential =
+            |[first, last, scale, ..]: [f64; 6]| (EvolutionLaw::Exponential { last, scale }, first);
+        let table = |[x0, y0, x1, y1, x2, y2]: [f64; 6]| {
+            (EvolutionLaw::Table(vec![[x0, y0], [x1, y1], [x2, y2]]), y0)
+        };
+        let of_table = [0.0, 0.2, 10.0, 0.6, 30.0, 0.5];
+        let laws: [(&dyn Fn([f64; 6]) -> (EvolutionLaw, f64), [f64; 6]); 2] =
+            [(&exponential, [0.2, 0.8, 3.0, 0.0, 0.0, 0.0]), (&table, of_table)];
+        for (law, numbers) in laws {
+            for x in [2.0, 20.0, 99.0] {
+                let at = |numbers, x: f64| {
+                    let (law, first) = law(numbers);
+                    law.at(first, x)
+                };
+                let (found, first) = law(numbers);
+                let (by_driver, by) = found.slopes_at(first, x);
+                let expected = (at(numbers, x + 1e-6) - at(numbers, x - 1e-6)) / 2e-6;
+                assert!((by_driver - expected).abs() < 1e-8, "{found:?} {x}");
+                assert_eq!(numbers[found.first()], first);
+                for (number, by) in by.iter().enumerate() {
+                    let moved = |step: f64| {
+                        let mut moved = numbers;
+                        moved[number] += step;
+                        at(moved, x)
+                    };
+                    let expected = (moved(1e-6) - moved(-1e-6)) / 2e-6;
+                    assert!((by - expected).abs() < 1e-8, "{found:?} {x} {number}: {by} {expected}");
+                }
+            }
+        }
     }
 
     /// Where the reach ends the coefficient has changed by what was asked for, and before it by less.

@@ -64,4 +64,4 @@ pub use state::{ContactState, SolvedState, Zone};
 pub use symmetry::Symmetry;
 pub use treatment::Treatment;
 pub use wear::{DebrisRule, OwnDepths, RimRule, WearLaw, WearRule};
-pub use wear_layers::{WearLayers, Worn, WornLayer, thinned};
+pub use wear_layers::{DepthSlopes, WearLayers, Worn, WornLayer, thinned};

@@ -50,6 +50,18 @@ impl Worn {
     }
 }
 
+/// How the depth off both bodies together changes at a depth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DepthSlopes {
+    /// By the work [1/pressure]: the coefficients at the surfaces.
+    pub by_work: f64,
+    /// At the same work by coefficient [pressure x length] and thickness [-] of each layer, first those of the lower body.
+    pub by_layers: Vec<[f64; 2]>,
+}
+
+/// Depths are rounded: so near to its end a layer is gone.
+const ROUNDING: f64 = 1e-12;
+
 /// How far surfaces wear.
 #[derive(Debug, Clone, Copy)]
 enum Until {
@@ -123,6 +135,36 @@ impl WearLayers {
             lost
         };
         [of(lower, depths[0]), of(upper, depths[1])]
+    }
+
+    /// How the depth off both bodies together changes where it is `depth` [length].
+    ///
+    /// In layer `l` of a body, of coefficient `k` and thickness `h`, that has lost `d` of it: by the coefficient of this layer `d / k`, and by the
+    /// numbers of a layer `i` above it `k h_i / k_i^2` and `1 - k / k_i`, since less of the work is left when that is gone.
+    pub fn slopes_at(&self, depth: f64) -> DepthSlopes {
+        let depths = self.at_depth(depth).depths;
+        let mut found = DepthSlopes { by_work: 0.0, by_layers: Vec::new() };
+        for (layers, depth) in self.bodies().into_iter().zip(depths) {
+            let mut left = depth;
+            let gone = |layer: &&WornLayer| {
+                let is_gone = left >= layer.thickness * (1.0 - ROUNDING);
+                if is_gone {
+                    left -= layer.thickness;
+                }
+                is_gone
+            };
+            let above = layers.iter().take_while(gone).count();
+            let Some(here) = layers.get(above) else { continue };
+            found.by_work += here.coefficient;
+            found.by_layers.extend(layers[..above].iter().map(|layer| {
+                let ratio = here.coefficient / layer.coefficient;
+                [ratio * layer.thickness / layer.coefficient, 1.0 - ratio]
+            }));
+            let by_own = if here.coefficient > 0.0 { left.max(0.0) / here.coefficient } else { 0.0 };
+            found.by_layers.push([by_own, 0.0]);
+            found.by_layers.extend(layers[above + 1..].iter().map(|_| [0.0; 2]));
+        }
+        found
     }
 
     fn worn(&self, until: Until) -> Worn {
@@ -238,6 +280,37 @@ mod tests {
         let [lower, upper] = stack.by_layer([4.0, 33.0]);
         assert_eq!((lower, upper), (vec![2.0, 1.0, 1.0], vec![3.0, 30.0]));
         assert!((stack.when_body_has_lost(0, 2.5).unwrap().work - 9.0).abs() < 1e-14);
+    }
+
+    /// Against differences of the depth by the work and by each number, away from where a layer ends; a film that wears through, what lies
+    /// below it, and the other body. 1e-8: differences in steps of 1e-5 of functions that are linear or rational in them.
+    #[test]
+    fn depths_change_by_every_number_of_the_layers() {
+        let numbers = [[[2.0, 0.5], [1.0, 0.1], [ENDLESS, 0.25]], [[3.0, 1.0], [4.0, 0.5], [ENDLESS, 2.0]]];
+        let stack = |numbers: [[[f64; 2]; 3]; 2]| {
+            let [lower, upper] = numbers.map(|body| body.map(|[thickness, k]| (thickness, k)));
+            layers(&lower, &upper)
+        };
+        for work in [1.0, 3.5, 9.0, 18.0] {
+            let depth = |numbers, work: f64| stack(numbers).after(work).depth();
+            let found = stack(numbers).slopes_at(depth(numbers, work));
+            let by_work = (depth(numbers, work + 1e-5) - depth(numbers, work - 1e-5)) / 2e-5;
+            assert!((found.by_work - by_work).abs() < 1e-8, "{work}: {found:?}");
+            for (layer, which) in (0..6).flat_map(|layer| [(layer, 0), (layer, 1)]) {
+                let moved = |by: f64| {
+                    let mut moved = numbers;
+                    moved[layer / 3][layer % 3][1 - which] += by;
+                    depth(moved, work)
+                };
+                let expected = (moved(1e-5) - moved(-1e-5)) / 2e-5;
+                let by = found.by_layers[layer][which];
+                assert!((by - expected).abs() < 1e-8, "{work}, {layer} {which}: {by} {expected}");
+            }
+        }
+        // On a layer that does not wear the depth is that of what lies above it, whatever the work.
+        let stops = layers(&[(1.5, 1.0), (1.0, 0.0), (ENDLESS, 5.0)], &[]);
+        let at_rest = stops.slopes_at(stops.after(10.0).depth());
+        assert_eq!((at_rest.by_work, &at_rest.by_layers[..]), (0.0, &[[0.0, 1.0], [0.0; 2], [0.0; 2]][..]));
     }
 
     /// A layer that does not wear stops the wear of its body, and of both when the other does not wear either.

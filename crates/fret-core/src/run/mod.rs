@@ -39,5 +39,6 @@ pub(crate) use fretting_loop::last_to_slide;
 pub use in_common::{InCommon, beginnings};
 pub use observer::{Iteration, Observer, Silent};
 pub(crate) use pair_compliance::PairCompliance;
+pub(crate) use rim::OpenRim;
 pub use run_error::RunError;
 pub use simulation::Simulation;

@@ -30,10 +30,25 @@ impl OpenRim {
     /// Wear coefficient in each cell over that at the rim: the mean over the cell of 1 within the width and of another number farther inside.
     pub fn factors(&self, pressure: &Array2<f64>) -> Array2<f64> {
         self.squares_to_open(pressure).mapv(|square| {
-            // Half a cell lies between the centre of the open cell and the rim.
-            let within = ((self.width - square.sqrt()) / self.side + 1.0).clamp(0.0, 1.0);
+            let within = self.within(square).clamp(0.0, 1.0);
             within + (1.0 - within) * self.interior
         })
+    }
+
+    /// The same with its derivatives by the width and by the number farther inside. With the pressure it changes where a cell opens or touches alone.
+    pub fn slopes(&self, pressure: &Array2<f64>) -> Array2<[f64; 3]> {
+        self.squares_to_open(pressure).mapv(|square| {
+            let whole = self.within(square);
+            let within = whole.clamp(0.0, 1.0);
+            let by_width = if within == whole { (1.0 - self.interior) / self.side } else { 0.0 };
+            [within + (1.0 - within) * self.interior, by_width, 1.0 - within]
+        })
+    }
+
+    /// Part of a cell within the width, at a square of its distance: below 0 and above 1 none and all of it. Half a cell lies between the centre of
+    /// the open cell and the rim.
+    fn within(&self, square: f64) -> f64 {
+        (self.width - square.sqrt()) / self.side + 1.0
     }
 
     /// Squares of the distances from each cell to the nearest one that is open to the air, centre to centre [length^2].

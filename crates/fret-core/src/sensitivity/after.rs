@@ -1,15 +1,17 @@
 //! From the solution of an increment's linear equations to all that it leaves behind, and back.
 
+use super::block::Block;
+use super::case_number::OF_WEAR;
 use super::cell::MOTIONS;
 use super::cell_rows::sums_with;
 use super::change::{Change, ENERGIES, Solution, add};
+use super::collected::Collected;
 use super::contact::Drive;
 use super::energies::{Energies, Inputs, Outputs};
 use super::rule::{PathChange, Rule, combination, product};
 use super::scene::{MOTION_OF, Scene};
 use super::slip::Slip;
 use super::solved::{Solved, at, deep_by, moved_by};
-use super::wear::Wear;
 use crate::fields::{Slopes, add_scaled, dot};
 use crate::model::{CoulombFriction, Zone};
 use crate::solver::{ContactSet, rate_since_touch};
@@ -30,10 +32,14 @@ pub(super) struct After<'a> {
     entered: Vec<Entered>,
     energies: Energies<'a>,
     slip: Option<Slip>,
-    wear: Option<Wear>,
+    wear: Option<Collected>,
+    /// The distance that is slipped, where debris flows out by it.
+    path: Option<Collected>,
+    /// What friction follows, where it evolves.
+    driver: Option<Collected>,
     goes_on: bool,
-    /// Cycles of the block that ends with it; none where nothing ends.
-    block: usize,
+    /// The block of cycles that ends with it.
+    block: Option<Block>,
 }
 
 impl<'a> After<'a> {
@@ -55,10 +61,16 @@ impl<'a> After<'a> {
         let [pressure, x, y] = &now.tractions;
         let forces = scene.resultants([pressure, x, y]);
         let energies = Energies::new(scene, [now, before], (law, rule));
-        let wear = scene.plan.case.wear.as_ref().map(|of| Wear::new(of, scene, [now, before], (law, rule)));
+        let (states, friction) = ([now, before], (law, rule));
+        let wear = scene.plan.case.wear.as_ref();
+        let wear = wear.map(|of| Collected::of_wear(of, scene, states, friction));
+        let path = scene.has_debris().then(|| Collected::of_path(scene, states, friction));
+        let evolution = scene.plan.case.friction_evolution.as_ref();
+        let driver = evolution.and_then(|of| Collected::of_evolution(of, scene, states, friction));
         let slip = scene.tells_slip.then(|| Slip::new(scene, [now, before], (law, rule)));
-        let (contact, block) = (&now.contact, now.block);
-        Self { scene, contact, forces, entered, energies, slip, wear, goes_on, block }
+        let contact = &now.contact;
+        let block = (now.block > 0).then(|| Block::new(scene, [before, now], now.block));
+        Self { scene, contact, forces, entered, energies, slip, wear, path, driver, goes_on, block }
     }
 
     /// Completes the changes of `next`, of which the loads are known.
@@ -76,8 +88,8 @@ impl<'a> After<'a> {
         let [normal, along_x, along_y] = &solution.displacements;
         for cell in 0..scene.region.len() {
             let place = scene.place(cell);
-            let worn = before.worn.get(cell).copied().unwrap_or(0.0);
-            next.gap[cell] = drive.gap[cell] + worn + normal[cell] - deep_by(&solution.motions, place);
+            next.gap[cell] =
+                drive.gap[cell] + before.opened(cell) + normal[cell] - deep_by(&solution.motions, place);
             if scene.is_frictional() {
                 let [x, y] = moved_by(&solution.motions, place);
                 next.slid[0][cell] = x - along_x[cell] - next.strain[0] * place[0];
@@ -89,19 +101,34 @@ impl<'a> After<'a> {
         }
         // What the equations ask for: they leave a little of it.
         self.contact.cells().for_each(|cell| next.gap[cell] = 0.0);
-        next.energies =
-            self.energies.forward(&Inputs { before, next, solution, paths, friction: drive.friction });
+        let friction = &drive.friction;
+        next.energies = self.energies.forward(&Inputs { before, next, solution, paths, friction });
         if let Some(slip) = &self.slip {
-            let inputs = Inputs { before, next, solution, paths, friction: drive.friction };
-            next.slip = slip.forward(&inputs);
+            next.slip = slip.forward(&Inputs { before, next, solution, paths, friction });
         }
         if let Some(wear) = &self.wear {
-            let inputs = Inputs { before, next, solution, paths, friction: drive.friction };
-            next.collected = wear.forward(&inputs, drive.wear);
+            let mut collected = before.collected.clone();
+            wear.forward(&Inputs { before, next, solution, paths, friction }, drive.wear, &mut collected);
+            next.collected = collected;
             next.worn.clone_from(&before.worn);
         }
-        if self.block > 0 {
-            next.end_block(self.block);
+        if let Some(slipped) = &self.path {
+            let mut path = before.path.clone();
+            slipped.forward(&Inputs { before, next, solution, paths, friction }, [0.0; OF_WEAR], &mut path);
+            next.path = path;
+            next.debris.clone_from(&before.debris);
+        }
+        if scene.evolves() {
+            let mut slipping = before.slipping.clone();
+            if let Some(driver) = &self.driver {
+                let inputs = Inputs { before, next, solution, paths, friction };
+                driver.forward(&inputs, [0.0; OF_WEAR], &mut slipping);
+            }
+            next.slipping = slipping;
+            next.slipped.clone_from(&before.slipped);
+        }
+        if let Some(block) = &self.block {
+            block.forward(next, &drive.wear, &drive.layers);
         }
         let forces = scene.resultants([pressure, x, y]);
         next.reached = scene.reached(forces, &solution.motions, scene.springs());
@@ -153,15 +180,34 @@ impl<'a> After<'a> {
             displacements: super::fields::zeros(cells),
             motions: [0.0; MOTIONS],
         };
-        if self.block > 0 {
-            next.end_block_transposed(self.block);
+        if let Some(block) = &self.block {
+            block.transposed(next, &mut drive.wear, &mut drive.layers);
         }
         if let Some(wear) = &self.wear {
             add_scaled(&mut before.worn, 1.0, &next.worn);
             let collected = std::mem::take(&mut next.collected);
-            let Drive { friction, wear: coefficient, .. } = drive;
+            add_scaled(&mut before.collected, 1.0, &collected);
+            let Drive { friction, wear: numbers, .. } = drive;
             let mut to = Outputs { before, next, solution: &mut solution, paths, friction };
-            wear.transposed(&collected, &mut to, coefficient);
+            wear.transposed(&collected, &mut to, numbers);
+        }
+        if let Some(slipped) = &self.path {
+            add_scaled(&mut before.debris, 1.0, &next.debris);
+            let path = std::mem::take(&mut next.path);
+            add_scaled(&mut before.path, 1.0, &path);
+            let Drive { friction, .. } = drive;
+            let mut to = Outputs { before, next, solution: &mut solution, paths, friction };
+            slipped.transposed(&path, &mut to, &mut [0.0; OF_WEAR]);
+        }
+        if scene.evolves() {
+            add_scaled(&mut before.slipped, 1.0, &next.slipped);
+            let slipping = std::mem::take(&mut next.slipping);
+            add_scaled(&mut before.slipping, 1.0, &slipping);
+            if let Some(driver) = &self.driver {
+                let Drive { friction, .. } = drive;
+                let mut to = Outputs { before, next, solution: &mut solution, paths, friction };
+                driver.transposed(&slipping, &mut to, &mut [0.0; OF_WEAR]);
+            }
         }
         if let Some(slip) = &self.slip {
             let of = std::mem::take(&mut next.slip);
@@ -176,8 +222,8 @@ impl<'a> After<'a> {
         }
         self.contact.cells().for_each(|cell| next.gap[cell] = 0.0);
         add_scaled(&mut drive.gap, 1.0, &next.gap);
-        if !before.worn.is_empty() {
-            add_scaled(&mut before.worn, 1.0, &next.gap);
+        for (cell, of) in next.gap.iter().enumerate() {
+            before.add_opened(cell, *of);
         }
         add_scaled(&mut solution.displacements[0], 1.0, &next.gap);
         let mut signs = [-1.0, -1.0, -1.0, 0.0, 0.0, 0.0];

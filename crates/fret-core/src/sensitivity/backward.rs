@@ -3,11 +3,13 @@
 
 use std::ops::ControlFlow;
 
+use super::case_number::OF_WEAR;
 use super::change::Change;
 use super::constants::Constants;
 use super::contact::Drive;
 use super::error::SensitivityError;
 use super::events::{NearEvents, SideOfEvents, cells_near_events, with_cells};
+use super::evolution::Evolution;
 use super::forward::change_of_gap;
 use super::increment::{ENOUGH, Increment};
 use super::operators::Operators;
@@ -52,7 +54,10 @@ struct Gathered {
     changes: [Change; 3],
     gap: Vec<f64>,
     rig: [f64; 3],
-    wear: f64,
+    wear: [f64; OF_WEAR],
+    /// Coefficient and thickness of each layer that wears, and numbers of the law by which friction evolves.
+    layers: Vec<[f64; 2]>,
+    evolution: Vec<f64>,
     /// Of the strains along x and y, each times a bulk stress.
     strain: [[f64; STRESSES]; 2],
     /// Coefficient and strength, and numbers of the controls, stage by stage.
@@ -64,10 +69,13 @@ struct Gathered {
 
 impl Gathered {
     fn nothing(scene: &Scene<'_>, stages: usize) -> Self {
+        let evolution = scene.plan.case.friction_evolution.as_ref();
         Self {
             changes: [(); 3].map(|()| scene.no_change()),
             gap: vec![0.0; scene.region.len()],
-            wear: 0.0,
+            wear: [0.0; OF_WEAR],
+            layers: vec![[0.0; 2]; scene.wearing_layers()],
+            evolution: vec![0.0; evolution.map_or(0, |rule| rule.law.numbers())],
             strain: [[0.0; STRESSES]; 2],
             rig: [0.0; 3],
             friction: vec![[0.0; 2]; stages],
@@ -87,7 +95,9 @@ impl Gathered {
     /// Its derivative by a number, without what a constant of a body does by the response.
     fn by(&self, parameter: &Parameter, scene: &Scene<'_>) -> f64 {
         let case = &scene.plan.case;
-        let mut sum = self.wear * parameter.change_of_wear();
+        let mut sum = dot(&self.wear, &parameter.change_of_wear());
+        sum += dot(self.layers.as_flattened(), parameter.change_of_layers(case).as_flattened());
+        sum += dot(&self.evolution, &parameter.change_of_evolution(case));
         if parameter.is_of_shape() {
             sum += dot(&self.gap, &change_of_gap(parameter, scene));
         }
@@ -123,7 +133,7 @@ pub(super) fn backward(
     targets: &[Target],
     mut visit: impl FnMut(&Snapshot) -> ControlFlow<()>,
 ) -> Result<Found, SensitivityError> {
-    let (cells, stages) = (scene.region.len(), scene.plan.case.stages.len());
+    let stages = scene.plan.case.stages.len();
     let mut gathered: Vec<Gathered> = targets.iter().map(|_| Gathered::nothing(scene, stages)).collect();
     let mut constants = Constants::new(scene, parameters, targets.len())?;
     let mut most: Option<NearEvents> = None;
@@ -158,6 +168,8 @@ pub(super) fn backward(
             continue;
         }
         constants.begin(&now.tractions);
+        let [last, _] = before;
+        let evolution = Evolution::of(scene, last.slipped.as_deref());
         let mut equations = increment.equations(operators)?;
         for (objective, (gathered, target)) in gathered.iter_mut().zip(targets).enumerate() {
             let [after, before, former] = &mut gathered.changes;
@@ -166,12 +178,12 @@ pub(super) fn backward(
                 gathered.changes.rotate_left(1);
                 continue;
             }
-            let mut drive = Drive::none(cells);
+            let mut drive = Drive::none(scene);
             let numbers = &mut gathered.controls[load.stage];
             let found = increment.transposed(
                 &mut equations,
                 after,
-                [before, former],
+                [&mut *before, former],
                 (&mut drive, numbers),
                 &mut gathered.largest,
             );
@@ -182,13 +194,17 @@ pub(super) fn backward(
                 target: ENOUGH,
             })?;
             add_scaled(&mut gathered.gap, 1.0, &drive.gap);
-            for (sum, by) in gathered.friction[load.stage].iter_mut().zip(drive.friction) {
+            for (sum, by) in gathered.friction[load.stage].iter_mut().zip(drive.friction.everywhere) {
                 *sum += by;
             }
             for (sum, by) in gathered.rig.iter_mut().zip(drive.rig) {
                 *sum += by;
             }
-            gathered.wear += drive.wear;
+            if let Some(evolution) = &evolution {
+                evolution.transposed(&drive.friction.cells, &mut before.slipped, &mut gathered.evolution);
+            }
+            add_scaled(&mut gathered.wear, 1.0, &drive.wear);
+            add_scaled(gathered.layers.as_flattened_mut(), 1.0, drive.layers.as_flattened());
             for (sums, of) in gathered.strain.iter_mut().zip(drive.strain) {
                 let stresses = load.step.bulk_stress.as_flattened();
                 sums.iter_mut().zip(stresses).for_each(|(sum, stress)| *sum += of * stress);

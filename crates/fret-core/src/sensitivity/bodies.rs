@@ -1,6 +1,6 @@
 //! How the response of a pair changes with a constant of a layer.
 
-use super::parameter::{BodyNumber, LayerNumber};
+use super::case_number::{BodyNumber, LayerNumber};
 use crate::compliance::SurfaceResponse;
 use crate::kernel::{
     Components, LayerChanges, ResponseChange, coefficients_by, line_coefficients_by, symbols_by,

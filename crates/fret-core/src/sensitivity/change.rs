@@ -37,6 +37,12 @@ pub(super) struct Change {
     /// Depth worn off, and what has been collected to be worn off; nothing where nothing wears.
     pub worn: Vec<f64>,
     pub collected: Vec<f64>,
+    /// Thickness of the debris, and what has been slipped since the cycle began; nothing where no debris stays.
+    pub debris: Vec<f64>,
+    pub path: Vec<f64>,
+    /// What friction follows in each cell, and what has been collected of it since the cycle began; nothing where friction does not evolve.
+    pub slipped: Vec<f64>,
+    pub slipping: Vec<f64>,
     /// Slip of the increment; nothing where nobody asks for it.
     pub slip: Tangential,
     /// Rotations times the length.
@@ -67,6 +73,10 @@ impl Change {
             drift: tangential(),
             worn: Vec::new(),
             collected: Vec::new(),
+            debris: Vec::new(),
+            path: Vec::new(),
+            slipped: Vec::new(),
+            slipping: Vec::new(),
             slip: [Vec::new(), Vec::new()],
             motions: [0.0; MOTIONS],
             strain: [0.0; 2],
@@ -83,7 +93,7 @@ impl Change {
     /// All its numbers, part by part.
     pub fn parts(&self) -> impl Iterator<Item = &[f64]> {
         let Self { shear, slid, drift, slip, reached, .. } = self;
-        let worn = [&self.worn, &self.collected];
+        let worn = [&self.worn, &self.collected, &self.debris, &self.path, &self.slipped, &self.slipping];
         let fields = [&self.pressure, &self.gap]
             .into_iter()
             .chain(shear)
@@ -104,43 +114,37 @@ impl Change {
         Self { worn: vec![0.0; cells], collected: vec![0.0; cells], ..self }
     }
 
+    /// The same of surfaces between which debris stays.
+    #[must_use]
+    pub fn of_debris(self, stays: bool) -> Self {
+        let cells = if stays { self.gap.len() } else { 0 };
+        Self { debris: vec![0.0; cells], path: vec![0.0; cells], ..self }
+    }
+
+    /// By how much the gap has opened in a cell: by what has worn off less the debris that lies there.
+    pub fn opened(&self, cell: usize) -> f64 {
+        let of = |field: &[f64]| field.get(cell).copied().unwrap_or(0.0);
+        of(&self.worn) - of(&self.debris)
+    }
+
+    /// Backwards: adds what the gap of a cell counts.
+    pub fn add_opened(&mut self, cell: usize, of: f64) {
+        self.worn.get_mut(cell).into_iter().for_each(|worn| *worn += of);
+        self.debris.get_mut(cell).into_iter().for_each(|debris| *debris -= of);
+    }
+
+    /// The same of surfaces whose friction evolves.
+    #[must_use]
+    pub fn of_evolution(self, evolves: bool) -> Self {
+        let cells = if evolves { self.gap.len() } else { 0 };
+        Self { slipped: vec![0.0; cells], slipping: vec![0.0; cells], ..self }
+    }
+
     /// The same of which slip is asked for.
     #[must_use]
     pub fn of_slip(self, asked: bool) -> Self {
         let cells = if asked { self.gap.len() } else { 0 };
         Self { slip: [vec![0.0; cells], vec![0.0; cells]], ..self }
-    }
-
-    /// Ends a block of cycles, of which the one that was computed stands for all: each takes off what that has collected, dissipates its energy,
-    /// leaves as much unresolved, and stores nothing.
-    pub fn end_block(&mut self, cycles: usize) {
-        let (cycles, others) = (cycles as f64, cycles as f64 - 1.0);
-        for ((worn, gap), more) in self.worn.iter_mut().zip(&mut self.gap).zip(&self.collected) {
-            *worn += cycles * more;
-            *gap += cycles * more;
-        }
-        self.collected.fill(0.0);
-        let [dissipated, unresolved, by_bulk] = OF_CYCLE.map(|place| others * self.energies[place]);
-        self.energies[DISSIPATED] += dissipated;
-        self.energies[UNRESOLVED] += unresolved;
-        self.energies[EXTERNAL] += dissipated + unresolved;
-        self.energies[OF_BULK] += by_bulk;
-        for place in OF_CYCLE {
-            self.energies[place] = 0.0;
-        }
-    }
-
-    /// Backwards.
-    pub fn end_block_transposed(&mut self, cycles: usize) {
-        let (cycles, others) = (cycles as f64, cycles as f64 - 1.0);
-        for ((more, worn), gap) in self.collected.iter_mut().zip(&self.worn).zip(&self.gap) {
-            *more = cycles * (worn + gap);
-        }
-        let of = |energy: usize| self.energies[energy];
-        let of_cycle = [of(DISSIPATED) + of(EXTERNAL), of(UNRESOLVED) + of(EXTERNAL), of(OF_BULK)];
-        for (place, of) in OF_CYCLE.into_iter().zip(of_cycle) {
-            self.energies[place] = others * of;
-        }
     }
 
     /// Whether all are zero.

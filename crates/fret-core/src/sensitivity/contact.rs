@@ -1,8 +1,10 @@
 //! What the cells of a contact do in an increment, and what its linearised equations ask for: right sides, from what changes besides the solution.
 
+use super::case_number::OF_WEAR;
 use super::cell::{Cell, MOTIONS, Prescribed, Shear};
 use super::change::{Change, Tangential};
 use super::fields::{Fields, zeros};
+use super::friction_change::FrictionChange;
 use super::loads::Load;
 use super::rule::{PathChange, Rule};
 use super::scene::{MOTION_OF, Scene};
@@ -40,11 +42,13 @@ pub(super) struct Drive {
     /// Gap before deformation in the region [length].
     pub gap: Vec<f64>,
     /// Friction coefficient and shear strength.
-    pub friction: [f64; 2],
+    pub friction: FrictionChange,
     /// Compliances of the machine: normal, along x and y [length/force].
     pub rig: [f64; 3],
-    /// Wear coefficient [1/pressure].
-    pub wear: f64,
+    /// Wear coefficient [1/pressure], width [length] and part inside [-] of the rim, fraction [-] and outflow length [length] of debris.
+    pub wear: [f64; OF_WEAR],
+    /// Wear coefficient [1/pressure] and thickness [length] of each layer, first those of the lower body; none where one coefficient holds.
+    pub layers: Vec<[f64; 2]>,
     /// Strain by the bulk stresses of the increment, times the length.
     pub strain: [f64; 2],
     /// Displacements of the tractions by the change of the response [length].
@@ -52,13 +56,15 @@ pub(super) struct Drive {
 }
 
 impl Drive {
-    /// Nothing, in a region of so many cells.
-    pub fn none(cells: usize) -> Self {
+    /// Nothing, in the region of a scene.
+    pub fn none(scene: &Scene<'_>) -> Self {
+        let cells = scene.region.len();
         Self {
             gap: vec![0.0; cells],
-            friction: [0.0; 2],
+            friction: FrictionChange::none(if scene.evolves() { cells } else { 0 }),
             rig: [0.0; 3],
-            wear: 0.0,
+            wear: [0.0; OF_WEAR],
+            layers: vec![[0.0; 2]; scene.wearing_layers()],
             strain: [0.0; 2],
             response: zeros(cells),
         }
@@ -121,7 +127,7 @@ impl<'a> Contact<'a> {
     pub fn asked(&self, before: &Change, next: &Change, (paths, drive): (&PathChange, &Drive)) -> Asked {
         let mut asked = zeros(self.cells.len());
         for ((place, cell), does) in self.set.cells().enumerate().zip(&self.cells) {
-            asked[0][place] = -drive.gap[cell] - before.worn.get(cell).copied().unwrap_or(0.0);
+            asked[0][place] = -drive.gap[cell] - before.opened(cell);
             let (slid, ahead) = (at(&before.slid, cell), at(&paths.ahead, place));
             let strained = |axis: usize| next.strain[axis] * does.place[axis];
             let [x, y] = [0, 1].map(|axis| -slid[axis] - ahead[axis] - strained(axis));
@@ -152,9 +158,7 @@ impl<'a> Contact<'a> {
         let [normal, x, y] = self.seen(&of.displacements);
         for (place, cell) in self.set.cells().enumerate() {
             drive.gap[cell] -= normal[place];
-            if let Some(worn) = before.worn.get_mut(cell) {
-                *worn -= normal[place];
-            }
+            before.add_opened(cell, -normal[place]);
             for (axis, along) in [&x, &y].into_iter().enumerate() {
                 before.slid[axis][cell] -= along[place];
                 next.strain[axis] -= along[place] * self.cells[place].place[axis];
@@ -198,21 +202,30 @@ impl<'a> Contact<'a> {
     }
 
     /// Shear that follows a change of the friction bound, whatever else changes, on all cells of a region of so many.
-    pub fn given(&self, friction: [f64; 2], region: usize) -> Tangential {
+    pub fn given(&self, friction: &FrictionChange, region: usize) -> Tangential {
         let mut given = [vec![0.0; region], vec![0.0; region]];
         let [coefficient, strength] = &self.by_friction;
         for (place, cell) in self.set.cells().enumerate() {
+            let [by_coefficient, by_strength] = friction.at(cell);
             for axis in 0..2 {
                 given[axis][cell] =
-                    coefficient[axis][place] * friction[0] + strength[axis][place] * friction[1];
+                    coefficient[axis][place] * by_coefficient + strength[axis][place] * by_strength;
             }
         }
         given
     }
 
-    /// Backwards: of coefficient and strength, from those of the tractions in the cells of the contact, packed.
+    /// Backwards: of coefficient and strength everywhere, from those of the tractions in the cells of the contact, packed.
     pub fn given_transposed(&self, [_, x, y]: &Fields) -> [f64; 2] {
         self.by_friction.each_ref().map(|[along_x, along_y]| dot(along_x, x) + dot(along_y, y))
+    }
+
+    /// The same cell by cell: adds to those of friction.
+    pub fn given_transposed_in_cells(&self, [_, x, y]: &Fields, friction: &mut FrictionChange) {
+        for (place, cell) in self.set.cells().enumerate() {
+            let of = |[along_x, along_y]: &Tangential| along_x[place] * x[place] + along_y[place] * y[place];
+            friction.add(cell, self.by_friction.each_ref().map(of));
+        }
     }
 }
 

@@ -6,6 +6,7 @@ use super::change::{
     Change, DISSIPATED, ENERGIES, EXTERNAL, OF_BULK, OF_CYCLE, OF_WEAR, STORED, Solution, UNRESOLVED,
 };
 use super::contact::bound_by_friction;
+use super::friction_change::FrictionChange;
 use super::rule::{PathChange, Rule, combination, product};
 use super::scene::Scene;
 use super::solved::{Solved, at, deep_by, moved_by};
@@ -65,7 +66,7 @@ pub(super) struct Inputs<'a> {
     pub next: &'a Change,
     pub solution: &'a Solution,
     pub paths: &'a PathChange,
-    pub friction: [f64; 2],
+    pub friction: &'a FrictionChange,
 }
 
 /// The same backwards.
@@ -74,7 +75,7 @@ pub(super) struct Outputs<'a> {
     pub next: &'a mut Change,
     pub solution: &'a mut Solution,
     pub paths: &'a mut PathChange,
-    pub friction: &'a mut [f64; 2],
+    pub friction: &'a mut FrictionChange,
 }
 
 impl<'a> Energies<'a> {
@@ -148,8 +149,9 @@ impl<'a> Energies<'a> {
     /// Changes of the energies, by their places.
     pub fn forward(&self, of: &Inputs<'_>) -> [f64; ENERGIES] {
         let Inputs { before, next, solution, paths, friction } = of;
-        let bound = |bound: &Bound, pressure: f64| {
-            bound.by[0] * pressure + bound.by[1] * friction[0] + bound.by[2] * friction[1]
+        let bound = |bound: &Bound, (cell, pressure): (usize, f64)| {
+            let [coefficient, strength] = friction.at(cell);
+            bound.by[0] * pressure + bound.by[1] * coefficient + bound.by[2] * strength
         };
         let drift = |cell: usize| [0, 1].map(|axis| next.slid[axis][cell] - before.slid[axis][cell]);
         let mut dissipated = 0.0;
@@ -159,13 +161,13 @@ impl<'a> Energies<'a> {
             let [x, y] = [0, 1].map(|axis| shares[0] * drift[axis] + shares[1] * ahead[axis]);
             let ([before_x, before_y], [after_x, after_y]) =
                 (at(&before.shear, *cell), at(&next.shear, *cell));
-            let first = bound(&bounds[0], before.pressure[*cell]);
-            let last = bound(&bounds[1], next.pressure[*cell]);
+            let first = bound(&bounds[0], (*cell, before.pressure[*cell]));
+            let last = bound(&bounds[1], (*cell, next.pressure[*cell]));
             dissipated += product(by, &[x, y, before_x, before_y, after_x, after_y, first, last]);
         }
         for Opens { cell, by, bound: of_cell } in &self.opens {
             let ([x, y], [shear_x, shear_y]) = (drift(*cell), at(&before.shear, *cell));
-            let held = bound(of_cell, before.pressure[*cell]);
+            let held = bound(of_cell, (*cell, before.pressure[*cell]));
             dissipated += product(by, &[x, y, shear_x, shear_y, held]);
         }
         let mut stored = 0.0;
@@ -228,10 +230,9 @@ impl<'a> Energies<'a> {
         let by_bulk = of[OF_BULK] + by_bulk + work;
         let worn = if self.before.opens { of[OF_WEAR] - unresolved } else { 0.0 };
         let stored = 0.5 * of[STORED];
-        let mut by_bound = |bound: &Bound, amount: f64, pressure: &mut f64| {
-            *pressure += bound.by[0] * amount;
-            friction[0] += bound.by[1] * amount;
-            friction[1] += bound.by[2] * amount;
+        let mut by_bound = |bound: &Bound, amount: f64, (cell, pressure): (usize, &mut [f64])| {
+            pressure[cell] += bound.by[0] * amount;
+            friction.add(cell, [bound.by[1] * amount, bound.by[2] * amount]);
         };
         for slips in &self.slips {
             let Slips { place, cell, shares, by, bounds } = slips;
@@ -246,8 +247,8 @@ impl<'a> Energies<'a> {
                 before.shear[axis][*cell] += first;
                 next.shear[axis][*cell] += last;
             }
-            by_bound(&bounds[0], first, &mut before.pressure[*cell]);
-            by_bound(&bounds[1], last, &mut next.pressure[*cell]);
+            by_bound(&bounds[0], first, (*cell, &mut before.pressure));
+            by_bound(&bounds[1], last, (*cell, &mut next.pressure));
         }
         for Opens { cell, by, bound } in &self.opens {
             let [x, y, shear_x, shear_y, held] = combination(&[*by], &[dissipated]);
@@ -256,7 +257,7 @@ impl<'a> Energies<'a> {
                 before.slid[axis][*cell] -= drift;
                 before.shear[axis][*cell] += shear;
             }
-            by_bound(bound, held, &mut before.pressure[*cell]);
+            by_bound(bound, held, (*cell, &mut before.pressure));
         }
         if stored != 0.0 {
             for cell in self.now.contact.cells() {

@@ -5,11 +5,13 @@ use std::sync::Arc;
 
 use ndarray::Array2;
 
+use super::block::Block;
 use super::bodies::change_of_response;
 use super::change::Change;
 use super::contact::Drive;
 use super::error::SensitivityError;
 use super::events::{NearEvents, SideOfEvents, cells_near_events, with_cells};
+use super::evolution::Evolution;
 use super::increment::{ENOUGH, Increment};
 use super::loads::Load;
 use super::operators::displacements;
@@ -135,7 +137,7 @@ pub(super) fn forward(
             };
             let mut equations = increment.equations(&mut operators)?;
             for (course, numbers) in courses.iter_mut().zip(&numbers) {
-                let drive = course.drive(scene, (&solved, &next.load), stage);
+                let drive = course.drive(scene, (&solved, &past[0]), &next.load);
                 let changes = [&course.before, &course.former];
                 let after = increment.forward(&mut equations, changes, (&drive, numbers));
                 let after = after.map_err(|reached| SensitivityError::NotSolved {
@@ -152,7 +154,12 @@ pub(super) fn forward(
             let [before, former] = &mut past;
             *former = std::mem::replace(before, solved);
         } else {
-            let begins_with_friction = next.load.begins && scene.plan.case.stages[stage].friction.is_some();
+            let rubbed = scene.evolves() && last.is_some_and(|last| last.block > 0);
+            let begins_with_friction =
+                rubbed || next.load.begins && scene.plan.case.stages[stage].friction.is_some();
+            let before = past[0].clone();
+            past[0].stood(step, last, scene.region);
+            let block = (step.block > 0).then(|| Block::new(scene, [&before, &past[0]], step.block));
             for (course, numbers) in courses.iter_mut().zip(&numbers) {
                 let mut after = course.before.clone();
                 next.load.forward(&course.before, numbers, &mut after);
@@ -167,11 +174,12 @@ pub(super) fn forward(
                 }
                 (course.before.start, course.before.held) = (after.start, after.held);
                 course.before.slip.iter_mut().for_each(|slip| slip.fill(0.0));
-                if step.block > 0 {
-                    course.before.end_block(step.block);
+                if let Some(block) = &block {
+                    let (case, parameter) = (&scene.plan.case, course.parameter);
+                    let (wear, layers) = (parameter.change_of_wear(), parameter.change_of_layers(case));
+                    block.forward(&mut course.before, &wear, &layers);
                 }
             }
-            past[0].stood(step, last, scene.region);
         }
         let changes: Vec<&Change> = courses.iter().map(|course| &course.before).collect();
         if visit((step, &past[0]), &changes).is_break() {
@@ -185,13 +193,18 @@ pub(super) fn forward(
 
 impl Course<'_> {
     /// What an increment depends on by the number.
-    fn drive(&mut self, scene: &Scene<'_>, (solved, load): (&Solved, &Load), stage: usize) -> Drive {
+    fn drive(&mut self, scene: &Scene<'_>, (solved, before): (&Solved, &Solved), load: &Load) -> Drive {
         let case = &scene.plan.case;
-        let mut drive = Drive::none(scene.region.len());
+        let mut drive = Drive::none(scene);
         drive.gap.clone_from(&self.gap);
-        drive.friction = self.parameter.change_of_friction(case, stage);
+        drive.friction.everywhere = self.parameter.change_of_friction(case, load.stage);
+        if let Some(evolution) = Evolution::of(scene, before.slipped.as_deref()) {
+            let numbers = self.parameter.change_of_evolution(case);
+            drive.friction.cells = evolution.forward(&self.before.slipped, &numbers);
+        }
         drive.rig = self.parameter.change_of_rig(case);
         drive.wear = self.parameter.change_of_wear();
+        drive.layers = self.parameter.change_of_layers(case);
         if let Some(strain) = &self.strain {
             drive.strain = strain.under(load.step.bulk_stress);
         }

@@ -14,7 +14,7 @@ use super::loads::Load;
 use super::operators::Operators;
 use super::rule::{Cells, PathChange, Rule};
 use super::scene::Scene;
-use super::solved::{Solved, law_of};
+use super::solved::Solved;
 use super::transposed::Transposed;
 use crate::fields::{add_scaled, dot, norm};
 use crate::history::StepRecord;
@@ -55,7 +55,7 @@ impl<'a> Increment<'a> {
         now: &'a Solved,
         [before, former]: [&'a Solved; 2],
     ) -> Self {
-        let law = law_of(scene.plan, load.stage);
+        let law = before.law_at(scene, load.stage);
         let end_point = record.work.end_point_increments > 0;
         let zones: Vec<Zone> = now.contact.cells().map(|cell| now.zone_of(cell)).collect();
         let contact = (&now.contact, &zones[..]);
@@ -125,8 +125,8 @@ impl<'a> Increment<'a> {
         let region = self.scene.region.len();
         let mut moved = drive.response.clone();
         let mut given = zeros(region);
-        if drive.friction != [0.0; 2] {
-            let [x, y] = self.contact.given(drive.friction, region);
+        if !drive.friction.is_none() {
+            let [x, y] = self.contact.given(&drive.friction, region);
             given = [vec![0.0; region], x, y];
             for (moved, by_given) in moved.iter_mut().zip(equations.operators.displacements(&given)) {
                 add_scaled(moved, 1.0, &by_given);
@@ -191,10 +191,18 @@ impl<'a> Increment<'a> {
                 Prescribed::Resultant => -amounts[motion],
                 Prescribed::FarEnd(give) => -give * amounts[motion],
             });
-            equations.rows.add_resultants(follow, &mut tractions);
-            let by_friction = self.contact.given_transposed(&tractions);
-            for ((friction, by), aside) in drive.friction.iter_mut().zip(by_friction).zip(found.aside) {
-                *friction += by - aside;
+            if self.scene.evolves() {
+                // Of each cell by itself: with all multipliers, in one more product.
+                (tractions, _) = equations.tractions_of(solution, &multipliers);
+                equations.rows.add_resultants(follow, &mut tractions);
+                self.contact.given_transposed_in_cells(&tractions, &mut drive.friction);
+            } else {
+                equations.rows.add_resultants(follow, &mut tractions);
+                let by_friction = self.contact.given_transposed(&tractions);
+                let everywhere = drive.friction.everywhere.iter_mut();
+                for ((friction, by), aside) in everywhere.zip(by_friction).zip(found.aside) {
+                    *friction += by - aside;
+                }
             }
         }
         let seen = self.contact.seen(&asked);

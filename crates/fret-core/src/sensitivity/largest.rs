@@ -5,9 +5,10 @@ use ndarray::Array2;
 
 use super::beneath::{Beneath, Found, Number, failed};
 use super::bodies::changes_of;
+use super::case_number::{BodyNumber, ResidualNumber};
 use super::error::SensitivityError;
 use super::field_weights::FieldWeights;
-use super::parameter::{BodyNumber, Parameter, ResidualNumber};
+use super::parameter::Parameter;
 use super::row::{Column, Composed};
 use super::scene::Scene;
 use crate::case::{Side, Stage};

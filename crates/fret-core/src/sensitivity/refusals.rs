@@ -7,7 +7,7 @@ use super::objective::Objective;
 use super::parameter::Parameter;
 use crate::case::{Case, Stage, StageControl};
 use crate::kernel::uniform_response;
-use crate::model::{CoulombFriction, Integration};
+use crate::model::{CoulombFriction, Integration, WearRule};
 use crate::plan::{Coupling, Plan, Simplification};
 
 /// Whether derivatives are taken of the history of a plan.
@@ -21,11 +21,10 @@ pub(super) fn check(plan: &Plan) -> Result<(), SensitivityError> {
     let refusals = [
         (
             wears_otherwise(case),
-            "[wear] beyond one coefficient",
-            "one wear.coefficient, and none of thinning_tolerance, debris, rim",
+            "wear.thinning_tolerance and wear.debris.stiffness",
+            "leave them out: layers that wear and debris that does not give have derivatives",
         ),
         (case.hardness.is_some(), "hardness", without),
-        (case.friction_evolution.is_some(), "friction.evolution", without),
         (plan.moves, "kinematics.displacement = \"finite\"", without),
         (case.stages.iter().any(Stage::rolls), "roll", without),
         (by_mean_gap, "mean_gap", "prescribe the normal force"),
@@ -47,12 +46,10 @@ pub(super) fn check(plan: &Plan) -> Result<(), SensitivityError> {
     }
 }
 
-/// Whether a case wears by more than one coefficient of both bodies together.
+/// Whether worn surfaces respond otherwise than those before.
 fn wears_otherwise(case: &Case) -> bool {
-    case.wear.as_ref().is_some_and(|wear| {
-        let plain = wear.layers.is_none() && wear.thinning_tolerance.is_none() && wear.own.is_none();
-        !(plain && wear.debris.is_none() && wear.rim.is_none() && wear.coefficient.is_some())
-    })
+    let gives = |wear: &WearRule| wear.debris.is_some_and(|debris| debris.stiffness.is_some());
+    case.wear.as_ref().is_some_and(|wear| wear.thinning_tolerance.is_some() || gives(wear))
 }
 
 /// Whether the numbers and the results that are asked for have derivatives with the simplifications of a plan.
@@ -122,11 +119,13 @@ pub(super) fn check_request(
     }
     let of_friction = |objective: &&Objective| objective.column() == "friction_coefficient";
     let mapped = plan.case.friction.is_map()
+        || plan.case.friction_evolution.is_some()
         || plan.case.stages.iter().filter_map(|stage| stage.friction.as_ref()).any(CoulombFriction::is_map);
     if mapped && objectives.iter().any(|objective| of_friction(&objective)) {
         return Err(SensitivityError::Objective {
             name: "friction_coefficient".to_owned(),
-            reason: "the mean over a map of friction, of which no derivative is taken".to_owned(),
+            reason: "the mean of friction that differs from cell to cell, of which no derivative is taken"
+                .to_owned(),
         });
     }
     Ok(())

@@ -74,13 +74,18 @@ fn solved(
     if let Some(depth) = last.and_then(|last| last.worn.as_ref()) {
         undeformed.iter_mut().zip(region.gather(depth)).for_each(|(gap, worn)| *gap += worn);
     }
+    if let Some(thickness) = last.and_then(|last| last.debris.as_ref()) {
+        undeformed.iter_mut().zip(region.gather(thickness)).for_each(|(gap, debris)| *gap -= debris);
+    }
     let mut solved = Solved {
         gap: undeformed.clone(),
         undeformed,
         worn: snapshot.worn_in(region),
+        debris: snapshot.debris_in(region),
         area: scene.area(),
         block: snapshot.block,
         opens: snapshot.has_worn(last),
+        slipped: snapshot.slipped.clone(),
         zone,
         motions,
         strain: scene.strain.under(load.step.bulk_stress),

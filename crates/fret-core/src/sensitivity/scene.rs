@@ -15,7 +15,7 @@ use super::strain::Strain;
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceResponse};
 use crate::model::{ContactState, Rig, SurfaceGrid};
 use crate::plan::{Coupling, Plan};
-use crate::run::PairCompliance;
+use crate::run::{OpenRim, PairCompliance};
 use crate::solver::{Ends, Region};
 use fret_fft::{ConvolutionError, good_length};
 
@@ -42,6 +42,8 @@ pub(super) struct Scene<'a> {
     pub rig: Rig,
     /// What bulk stresses do to the surfaces.
     pub strain: Strain,
+    /// The rim by which the surfaces wear, where another coefficient holds inside.
+    pub rim: Option<OpenRim>,
     /// Whether slip is asked for.
     pub tells_slip: bool,
 }
@@ -63,6 +65,7 @@ impl<'a> Scene<'a> {
             })
             .collect();
         let largest = centres.iter().flatten().fold(0.0_f64, |most, place| most.max(place.abs()));
+        let rim = plan.case.wear.as_ref().and_then(|wear| wear.rim.as_ref());
         let length = if largest > 0.0 { largest } else { 1.0 };
         Self {
             plan,
@@ -73,6 +76,7 @@ impl<'a> Scene<'a> {
             undeformed: field(region, &undeformed),
             rig: plan.case.springs().of_part(symmetry.copies()),
             strain: Strain::of(plan, length),
+            rim: rim.map(|rim| OpenRim::new(rim, 0, &plan.grid, symmetry)),
             tells_slip: snapshots.iter().any(|snapshot| snapshot.slip.is_some()),
         }
     }
@@ -84,7 +88,36 @@ impl<'a> Scene<'a> {
 
     /// No change.
     pub fn no_change(&self) -> Change {
-        Change::none(self.region.len()).of_wear(self.plan.case.wear.is_some()).of_slip(self.tells_slip)
+        let change = Change::none(self.region.len()).of_slip(self.tells_slip);
+        change
+            .of_wear(self.plan.case.wear.is_some())
+            .of_debris(self.has_debris())
+            .of_evolution(self.evolves())
+    }
+
+    /// Whether debris stays between the surfaces.
+    pub fn has_debris(&self) -> bool {
+        self.plan.case.wear.as_ref().is_some_and(|wear| wear.debris.is_some())
+    }
+
+    /// Whether friction evolves.
+    pub fn evolves(&self) -> bool {
+        self.plan.case.friction_evolution.is_some()
+    }
+
+    /// How many layers wear, each by its own coefficient.
+    pub fn wearing_layers(&self) -> usize {
+        let layers = self.plan.case.wear.as_ref().and_then(|wear| wear.layers.as_ref());
+        layers.map_or(0, |layers| layers.bodies().iter().map(|body| body.len()).sum())
+    }
+
+    /// Part of the wear coefficient that is in force in each cell of the region under pressures there, and its derivatives by width and inside of
+    /// the rim.
+    pub fn rim_slopes(&self, rim: &OpenRim, pressed: &[f64]) -> Vec<[f64; 3]> {
+        // Beyond the region nothing touches.
+        let mut pressure = Array2::zeros(self.grid.cells());
+        self.region.place(pressed, &mut pressure);
+        self.region.gather_map(&rim.slopes(&pressure), |slopes| *slopes)
     }
 
     /// How many cells of the whole contact a cell stands for, times the area of one [length^2].

@@ -72,7 +72,8 @@ impl Slip {
         for Opens { cell, by, bound } in &self.opens {
             let ([x, y], [shear_x, shear_y]) = (drift(*cell), at(&before.shear, *cell));
             let by_pressure = bound.by[0] * before.pressure[*cell];
-            let held = by_pressure + bound.by[1] * friction[0] + bound.by[2] * friction[1];
+            let [coefficient, strength] = friction.at(*cell);
+            let held = by_pressure + bound.by[1] * coefficient + bound.by[2] * strength;
             for (slip, by) in slip.iter_mut().zip(by) {
                 slip[*cell] = product(by, &[x, y, shear_x, shear_y, held]);
             }
@@ -98,8 +99,7 @@ impl Slip {
                 before.shear[axis][*cell] += shear;
             }
             before.pressure[*cell] += bound.by[0] * held;
-            friction[0] += bound.by[1] * held;
-            friction[1] += bound.by[2] * held;
+            friction.add(*cell, [bound.by[1] * held, bound.by[2] * held]);
         }
     }
 }

@@ -6,7 +6,7 @@ use ndarray::Array2;
 
 use super::fields::{Fields, zeros};
 use crate::history::StepRecord;
-use crate::model::{ContactState, Zone};
+use crate::model::{AccumulatedSlip, ContactState, Zone};
 use crate::solver::Region;
 
 /// Bytes a cell in contact: its number, three tractions, its zone.
@@ -28,6 +28,10 @@ pub(super) struct Snapshot {
     pub slip: Option<[Vec<f64>; 2]>,
     /// Depth worn off both bodies together, after what happens to the surfaces where a cycle or a stage ends [length].
     pub worn: Option<Arc<Array2<f64>>>,
+    /// Thickness of the debris, the same, where some of it stays [length].
+    pub debris: Option<Arc<Array2<f64>>>,
+    /// What slip has done to the surfaces, the same, where friction follows that.
+    pub slipped: Option<Arc<AccumulatedSlip>>,
     /// Cycles of the block that ends with it, whose wear is taken off then; of a stage without cycles one, and none where nothing ends.
     pub block: usize,
 }
@@ -59,26 +63,32 @@ impl Snapshot {
             tilt: state.tilt,
             bulk_stress: state.bulk_stress,
             slip: with_slip.then(|| slip.map(|field| touched.iter().map(|cell| field[*cell]).collect())),
-            worn: state.worn_depth.as_ref().map(|depth| {
-                let same = last.and_then(|last| last.worn.as_ref()).filter(|known| ***known == *depth);
-                same.map_or_else(|| Arc::new(depth.clone()), Arc::clone)
-            }),
+            worn: shared(state.worn_depth.as_ref(), last.and_then(|last| last.worn.as_ref())),
+            debris: shared(state.debris.as_ref(), last.and_then(|last| last.debris.as_ref())),
+            slipped: shared(state.accumulated.as_ref(), last.and_then(|last| last.slipped.as_ref())),
             block: 0,
         }
     }
 
     /// Whether the surfaces have worn at its end, since another one.
     pub fn has_worn(&self, last: Option<&Self>) -> bool {
-        match (&self.worn, last.and_then(|last| last.worn.as_ref())) {
+        let of_last = |of: fn(&Self) -> &Option<Arc<Array2<f64>>>| last.and_then(|last| of(last).as_ref());
+        let pairs = [(&self.worn, of_last(|last| &last.worn)), (&self.debris, of_last(|last| &last.debris))];
+        pairs.into_iter().any(|pair| match pair {
             (Some(now), Some(then)) => !Arc::ptr_eq(now, then),
             (Some(now), None) => now.iter().any(|depth| *depth != 0.0),
             (None, _) => false,
-        }
+        })
     }
 
     /// Depth worn off in a region of the grid; nothing where nothing wears.
     pub fn worn_in(&self, region: Region) -> Vec<f64> {
         self.worn.as_ref().map_or_else(Vec::new, |depth| region.gather(depth))
+    }
+
+    /// Thickness of the debris there; nothing where none stays.
+    pub fn debris_in(&self, region: Region) -> Vec<f64> {
+        self.debris.as_ref().map_or_else(Vec::new, |thickness| region.gather(thickness))
     }
 
     /// Motions of the state, without cells.
@@ -148,4 +158,11 @@ impl Snapshot {
         let slip = if self.slip.is_some() { 2 * size_of::<f64>() } else { 0 };
         size_of::<Self>() + self.cells.len() * (CELL + slip)
     }
+}
+
+/// The same thing as the one before where it has not changed.
+fn shared<T: Clone + PartialEq>(now: Option<&T>, last: Option<&Arc<T>>) -> Option<Arc<T>> {
+    let now = now?;
+    let same = last.filter(|known| ***known == *now);
+    Some(same.map_or_else(|| Arc::new(now.clone()), Arc::clone))
 }

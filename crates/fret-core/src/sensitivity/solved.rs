@@ -1,6 +1,7 @@
 //! The increments of a history as they were solved, in its region, with what the rule of slip remembers of them: numbers alone.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use ndarray::Array2;
 
@@ -10,8 +11,7 @@ use super::fields::{Fields, zeros};
 use super::loads::Load;
 use super::scene::Scene;
 use super::snapshot::Snapshot;
-use crate::model::{CoulombFriction, LoadStep, Zone};
-use crate::plan::Plan;
+use crate::model::{AccumulatedSlip, CoulombFriction, LoadStep, Zone};
 use crate::solver::{ContactSet, Region};
 
 /// A cell's two numbers.
@@ -41,9 +41,13 @@ pub(super) struct Solved {
     /// Depth worn off after it, and the area that a cell stands for; nothing where nothing wears.
     pub worn: Vec<f64>,
     pub area: f64,
+    /// Thickness of the debris after it [length]; nothing where none stays.
+    pub debris: Vec<f64>,
     /// Cycles of the block that ends with it, whose wear is taken off then, none where nothing ends; and whether that opens the gap.
     pub block: usize,
     pub opens: bool,
+    /// What slip has done to the surfaces until after it, where friction follows that.
+    pub slipped: Option<Arc<AccumulatedSlip>>,
     pub zone: Array2<Zone>,
     /// Rotations times the length [length].
     pub motions: [f64; MOTIONS],
@@ -73,9 +77,11 @@ impl Solved {
             gap: scene.undeformed.clone(),
             undeformed: scene.undeformed.clone(),
             worn: Vec::new(),
+            debris: Vec::new(),
             area: scene.area(),
             block: 0,
             opens: false,
+            slipped: None,
             zone: Array2::from_elem(scene.region.shape, Zone::Open),
             motions: [0.0; MOTIONS],
             strain: [0.0; 2],
@@ -125,11 +131,24 @@ impl Solved {
         self.zone = step.in_region(region).1;
         self.opens = step.has_worn(last);
         self.worn = step.worn_in(region);
+        self.debris = step.debris_in(region);
+        self.slipped.clone_from(&step.slipped);
     }
 
     /// Whether a load is the one that it ended with.
     pub fn stands(&self, load: &Load) -> bool {
         self.load.as_ref() == Some(&load.step) && !self.opens
+    }
+
+    /// The law of friction in force after it, in an increment of a stage, on the part in front of the mirrors.
+    pub fn law_at<'b>(&self, scene: &Scene<'b>, stage: usize) -> Cow<'b, CoulombFriction> {
+        let plan = scene.plan;
+        let law = plan.symmetry.part_of_friction(plan.case.friction_of(stage));
+        match (&plan.case.friction_evolution, &self.slipped) {
+            (Some(rule), Some(slipped)) => Cow::Owned(rule.friction(&law, slipped)),
+            (Some(rule), None) => Cow::Owned(rule.friction(&law, &AccumulatedSlip::none(scene.grid.cells()))),
+            (None, _) => law,
+        }
     }
 
     /// Change of the tangential displacement of the upper surface over the lower in a cell since another increment [length].
@@ -143,9 +162,4 @@ impl Solved {
         let forces = scene.resultants([pressure, x, y]);
         scene.reached(forces, &self.motions, scene.springs())
     }
-}
-
-/// The law of friction in force at a stage, on the part in front of the mirrors.
-pub(super) fn law_of(plan: &Plan, stage: usize) -> Cow<'_, CoulombFriction> {
-    plan.symmetry.part_of_friction(plan.case.friction_of(stage))
 }

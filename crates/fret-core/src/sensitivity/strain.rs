@@ -1,6 +1,6 @@
 //! By how much more bulk stresses strain the lower surface than the upper one, linearised.
 
-use super::parameter::{BodyNumber, LayerNumber};
+use super::case_number::{BodyNumber, LayerNumber};
 use crate::model::BulkCompliance;
 use crate::model::controls::{BULK_STRESS, FREEDOMS};
 use crate::plan::Plan;

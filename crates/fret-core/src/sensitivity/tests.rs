@@ -7,6 +7,7 @@ use super::cell::MOTIONS;
 use super::change::{Change, Solution};
 use super::contact::{Asked, Contact, Drive};
 use super::fields::Fields;
+use super::friction_change::FrictionChange;
 use super::gradient::{Snapshots, end_blocks};
 use super::increment::Increment;
 use super::krylov::LinearProblem;
@@ -17,7 +18,7 @@ use super::replay::Replay;
 use super::rule::{Cells, PathChange, Rule};
 use super::scene::Scene;
 use super::snapshot::Snapshot;
-use super::solved::{Solved, law_of};
+use super::solved::Solved;
 use super::transposed::Transposed;
 use crate::case::Case;
 use crate::fields::dot;
@@ -114,6 +115,20 @@ cycles = 4
 increments = 8
 ";
 
+/// The same through a film, by coefficients of layers and of both bodies, more at the rim; with debris that flows out, and friction that follows the energy.
+fn worn_through_layers() -> String {
+    let layers = "lower]\ncoatings = [{ thickness = 1.5e-4, young = 3.0, poisson = 0.3, wear_coefficient = 0.3 }]\n\
+                  substrate = { young = 1.0, poisson = 0.3, wear_coefficient = 0.1 }";
+    WORN.replace("lower]\nsubstrate = { young = 1.0, poisson = 0.3 }", layers)
+        .replace("rigid = true", "rigid = true\nwear_coefficient = 0.2")
+        .replace("[wear]\ncoefficient = 0.3\n", "[wear]\n")
+        .replace("[solver]", "[wear.rim]\nwidth = 0.3\ninterior = 0.5\n[wear.debris]\nfraction = 0.5\noutflow_length = 0.1\n[solver]")
+        .replace(
+            "[wear]",
+            "evolution = { by = \"energy\", last = 0.5, scale = 2e-3, tolerance = 1.0 }\n[wear]",
+        )
+}
+
 fn vector(random: &mut Random, size: usize) -> Vec<f64> {
     (0..size).map(|_| random.between(-1.0, 1.0)).collect()
 }
@@ -128,7 +143,7 @@ fn fields(random: &mut Random, size: usize) -> Fields {
 
 /// No change, of surfaces that may wear and of which slip is asked for.
 fn no_change(cells: usize) -> Change {
-    Change::none(cells).of_wear(true).of_slip(true)
+    Change::none(cells).of_wear(true).of_debris(true).of_slip(true).of_evolution(true)
 }
 
 fn change(random: &mut Random, cells: usize) -> Change {
@@ -137,6 +152,10 @@ fn change(random: &mut Random, cells: usize) -> Change {
     Change {
         worn: vector(random, cells),
         collected: vector(random, cells),
+        debris: vector(random, cells),
+        path: vector(random, cells),
+        slipped: vector(random, cells),
+        slipping: vector(random, cells),
         slip,
         pressure: vector(random, cells),
         shear,
@@ -155,16 +174,17 @@ fn change(random: &mut Random, cells: usize) -> Change {
     }
 }
 
-fn drive(random: &mut Random, cells: usize) -> Drive {
-    let (gap, response) = (vector(random, cells), fields(random, cells));
-    Drive {
-        gap,
-        friction: array(random),
-        rig: array(random),
-        wear: random.between(-1.0, 1.0),
-        strain: array(random),
-        response,
+fn drive(random: &mut Random, scene: &Scene<'_>) -> Drive {
+    let cells = scene.region.len();
+    let mut found = Drive::none(scene);
+    let in_cells = vector(random, found.friction.cells.len());
+    found.friction = FrictionChange { everywhere: array(random), cells: in_cells };
+    if scene.evolves() {
+        found.friction.everywhere[0] = 0.0; // it is that of the cells
     }
+    found.layers = (0..found.layers.len()).map(|_| array(random)).collect();
+    (found.gap, found.response) = (vector(random, cells), fields(random, cells));
+    Drive { rig: array(random), wear: array(random), strain: array(random), ..found }
 }
 
 fn paths(random: &mut Random, cells: usize) -> PathChange {
@@ -186,9 +206,11 @@ fn of_changes(a: &Change, b: &Change) -> f64 {
 
 fn of_drives(a: &Drive, b: &Drive) -> f64 {
     dot(&a.gap, &b.gap)
-        + dot(&a.friction, &b.friction)
+        + dot(&a.friction.everywhere, &b.friction.everywhere)
+        + dot(&a.friction.cells, &b.friction.cells)
         + dot(&a.rig, &b.rig)
-        + a.wear * b.wear
+        + dot(&a.wear, &b.wear)
+        + dot(a.layers.as_flattened(), b.layers.as_flattened())
         + dot(&a.strain, &b.strain)
         + of_fields(&a.response, &b.response)
 }
@@ -247,7 +269,7 @@ fn rule_of(at: &At<'_>) -> Rule {
 fn every_term_goes_backwards_by_its_transpose() {
     let mut random = Random::seeded(41);
     let mut kinds = [0; 3];
-    for text in [COUPLED, SIMILAR, WORN] {
+    for text in [COUPLED, SIMILAR, WORN, &worn_through_layers()] {
         each_increment(text, |at, operators| {
             let cells = at.scene.region.len();
             let contact_cells = at.now.contact.len();
@@ -258,11 +280,11 @@ fn every_term_goes_backwards_by_its_transpose() {
             let random = &mut random;
             loads(random, &at, cells);
             paths_of_slip(random, &at, &rule);
-            let law = law_of(at.scene.plan, at.load.stage);
+            let law = at.past[0].law_at(at.scene, at.load.stage);
             let contact = Contact::new(at.scene, (at.now, at.past[0]), (at.load, &law, &rule));
-            what_is_asked(random, &contact, (cells, contact_cells));
+            what_is_asked(random, &contact, (at.scene, contact_cells));
             let after = After::new(at.scene, [at.now, at.past[0]], (&law, &rule));
-            what_follows(random, &after, (cells, contact_cells));
+            what_follows(random, &after, (at.scene, contact_cells));
             equations(random, &contact, operators, cells);
         });
     }
@@ -296,10 +318,11 @@ fn paths_of_slip(random: &mut Random, at: &At<'_>, rule: &Rule) {
     alike("paths", forward, pairs.map(|(a, b)| of_changes(a, b)).iter().sum(), 1e-12);
 }
 
-fn what_is_asked(random: &mut Random, contact: &Contact<'_>, (cells, contact_cells): (usize, usize)) {
+fn what_is_asked(random: &mut Random, contact: &Contact<'_>, (scene, contact_cells): (&Scene<'_>, usize)) {
+    let cells = scene.region.len();
     let [before, next] = [(); 2].map(|()| change(random, cells));
-    let (of_paths_in, mut of_drive) = (paths(random, contact_cells), drive(random, cells));
-    of_drive.friction = [0.0; 2];
+    let (of_paths_in, mut of_drive) = (paths(random, contact_cells), drive(random, scene));
+    of_drive.friction = Drive::none(scene).friction;
     let asked = contact.asked(&before, &next, (&of_paths_in, &of_drive));
     let mut y = Asked { displacements: fields(random, contact_cells), amounts: array(random) };
     for (place, cell) in contact.cells.iter().enumerate() {
@@ -309,25 +332,32 @@ fn what_is_asked(random: &mut Random, contact: &Contact<'_>, (cells, contact_cel
     }
     let forward = of_fields(&y.displacements, &asked.displacements) + dot(&y.amounts, &asked.amounts);
     let [mut to_before, mut to_next] = [(); 2].map(|()| no_change(cells));
-    let (mut to_paths, mut to_drive) = (PathChange::none(contact_cells), Drive::none(cells));
+    let (mut to_paths, mut to_drive) = (PathChange::none(contact_cells), Drive::none(scene));
     contact.asked_transposed(&y, [&mut to_before, &mut to_next], (&mut to_paths, &mut to_drive));
     let backward = of_changes(&to_before, &before)
         + of_changes(&to_next, &next)
         + of_paths(&to_paths, &of_paths_in)
         + of_drives(&to_drive, &of_drive);
     alike("asked", forward, backward, 1e-12);
-    let (friction, tractions) = (array(random), fields(random, contact_cells));
-    let given = contact.given(friction, cells).map(|field| contact.set.packed(&field));
-    let back = contact.given_transposed(&tractions);
+    let (friction, tractions) = (drive(random, scene).friction, fields(random, contact_cells));
+    let given = contact.given(&friction, cells).map(|field| contact.set.packed(&field));
+    let mut back = Drive::none(scene).friction;
+    if scene.evolves() {
+        contact.given_transposed_in_cells(&tractions, &mut back);
+    } else {
+        back.everywhere = contact.given_transposed(&tractions);
+    }
     let forward = dot(&given[0], &tractions[1]) + dot(&given[1], &tractions[2]);
     if contact.cells.iter().any(|cell| cell.along != [0.0; 2]) {
-        alike("given", forward, dot(&back, &friction), 1e-12);
+        let backward = dot(&back.everywhere, &friction.everywhere) + dot(&back.cells, &friction.cells);
+        alike("given", forward, backward, 1e-12);
     }
 }
 
-fn what_follows(random: &mut Random, after: &After<'_>, (cells, contact_cells): (usize, usize)) {
+fn what_follows(random: &mut Random, after: &After<'_>, (scene, contact_cells): (&Scene<'_>, usize)) {
+    let cells = scene.region.len();
     let before = change(random, cells);
-    let (of_paths_in, of_drive) = (paths(random, contact_cells), drive(random, cells));
+    let (of_paths_in, of_drive) = (paths(random, contact_cells), drive(random, scene));
     let solution = Solution {
         tractions: fields(random, cells),
         displacements: fields(random, cells),
@@ -338,7 +368,7 @@ fn what_follows(random: &mut Random, after: &After<'_>, (cells, contact_cells): 
     let none = [0.0; FREEDOMS];
     let y = Change { start: none, held: none, from: none, load: none, ..change(random, cells) };
     let forward = of_changes(&y, &next);
-    let (mut to_paths, mut to_drive) = (PathChange::none(contact_cells), Drive::none(cells));
+    let (mut to_paths, mut to_drive) = (PathChange::none(contact_cells), Drive::none(scene));
     let mut to_before = no_change(cells);
     let back = after.transposed(&mut y.clone(), &mut to_before, (&mut to_paths, &mut to_drive));
     let backward = of_changes(&to_before, &before)
@@ -397,14 +427,14 @@ struct Made {
 }
 
 impl Made {
-    fn none(cells: usize) -> Self {
-        let [before, former] = [(); 2].map(|()| no_change(cells));
-        Self { before, former, drive: Drive::none(cells), numbers: [0.0; FREEDOMS] }
+    fn none(scene: &Scene<'_>) -> Self {
+        let [before, former] = [(); 2].map(|()| no_change(scene.region.len()));
+        Self { before, former, drive: Drive::none(scene), numbers: [0.0; FREEDOMS] }
     }
 
-    fn random(random: &mut Random, cells: usize) -> Self {
-        let [before, former] = [(); 2].map(|()| change(random, cells));
-        Self { before, former, drive: drive(random, cells), numbers: array(random) }
+    fn random(random: &mut Random, scene: &Scene<'_>) -> Self {
+        let [before, former] = [(); 2].map(|()| change(random, scene.region.len()));
+        Self { before, former, drive: drive(random, scene), numbers: array(random) }
     }
 
     fn times(&self, other: &Self) -> f64 {
@@ -415,19 +445,20 @@ impl Made {
     }
 
     /// One of its blocks alone.
-    fn only(&self, block: usize, cells: usize) -> Self {
-        let mut found = Self::none(cells);
+    fn only(&self, block: usize, scene: &Scene<'_>) -> Self {
+        let mut found = Self::none(scene);
         let count = BLOCKS.len();
         match block {
             at if at < count => (BLOCKS[at].1)(&mut found.before, &self.before),
             at if at < 2 * count => (BLOCKS[at - count].1)(&mut found.former, &self.former),
             at => match at - 2 * count {
                 0 => found.drive.gap.clone_from(&self.drive.gap),
-                1 => found.drive.friction = self.drive.friction,
+                1 => found.drive.friction.clone_from(&self.drive.friction),
                 2 => found.drive.rig = self.drive.rig,
                 3 => found.drive.wear = self.drive.wear,
                 4 => found.drive.strain = self.drive.strain,
                 5 => found.drive.response.clone_from(&self.drive.response),
+                6 => found.drive.layers.clone_from(&self.drive.layers),
                 _ => found.numbers = self.numbers,
             },
         }
@@ -439,7 +470,7 @@ impl Made {
 type Copies = fn(&mut Change, &Change);
 
 /// The blocks of a change.
-const BLOCKS: [(&str, Copies); 17] = [
+const BLOCKS: [(&str, Copies); 21] = [
     ("pressure", |to, of| to.pressure.clone_from(&of.pressure)),
     ("shear", |to, of| to.shear.clone_from(&of.shear)),
     ("gap", |to, of| to.gap.clone_from(&of.gap)),
@@ -448,6 +479,10 @@ const BLOCKS: [(&str, Copies); 17] = [
     ("slip", |to, of| to.slip.clone_from(&of.slip)),
     ("worn", |to, of| to.worn.clone_from(&of.worn)),
     ("collected", |to, of| to.collected.clone_from(&of.collected)),
+    ("debris", |to, of| to.debris.clone_from(&of.debris)),
+    ("path", |to, of| to.path.clone_from(&of.path)),
+    ("slipped", |to, of| to.slipped.clone_from(&of.slipped)),
+    ("slipping", |to, of| to.slipping.clone_from(&of.slipping)),
     ("motions", |to, of| to.motions = of.motions),
     ("strain", |to, of| to.strain = of.strain),
     ("energies", |to, of| to.energies = of.energies),
@@ -458,8 +493,8 @@ const BLOCKS: [(&str, Copies); 17] = [
     ("load", |to, of| to.load = of.load),
     ("ratio", |to, of| to.ratio = of.ratio),
 ];
-const OF_DRIVE: [&str; 7] =
-    ["gap before deformation", "friction", "rig", "wear", "strain", "response", "controls"];
+const OF_DRIVE: [&str; 8] =
+    ["gap before deformation", "friction", "rig", "wear", "strain", "response", "layers", "controls"];
 
 /// The whole of an increment, from every block of what it is made from to every block of what it leaves: each pair by its own size, which may be a
 /// millionth of the largest. 1e-7 of that, and 1e-11 of all that the block leaves: the linear equations are solved to 1e-12 both ways.
@@ -467,19 +502,21 @@ const OF_DRIVE: [&str; 7] =
 fn an_increment_goes_backwards_by_its_transpose_block_by_block() {
     let mut random = Random::seeded(42);
     let (mut pairs, mut smallest) = (0, f64::INFINITY);
-    for text in [COUPLED, SIMILAR, WORN] {
+    for text in [COUPLED, SIMILAR, WORN, &worn_through_layers()] {
         each_increment(text, |at, operators| {
             let cells = at.scene.region.len();
             let increment = Increment::new(at.scene, (&at.snapshot.record, at.load), at.now, at.past);
             let mut equations = increment.equations(operators).unwrap();
-            let (made, y) = (Made::random(&mut random, cells), change(&mut random, cells));
+            let (made, y) = (Made::random(&mut random, at.scene), change(&mut random, cells));
             let parts: Vec<Made> =
-                (0..2 * BLOCKS.len() + OF_DRIVE.len()).map(|block| made.only(block, cells)).collect();
+                (0..2 * BLOCKS.len() + OF_DRIVE.len()).map(|block| made.only(block, at.scene)).collect();
             let left: Vec<Change> = parts
                 .iter()
                 .map(|Made { before, former, drive, numbers }| {
                     let next = increment.forward(&mut equations, [before, former], (drive, numbers)).unwrap();
-                    if next.worn.is_empty() { next.of_wear(true) } else { next }
+                    let next = if next.worn.is_empty() { next.of_wear(true) } else { next };
+                    let next = if next.debris.is_empty() { next.of_debris(true) } else { next };
+                    if next.slipped.is_empty() { next.of_evolution(true) } else { next }
                 })
                 .collect();
             for (to, copies) in BLOCKS {
@@ -488,7 +525,7 @@ fn an_increment_goes_backwards_by_its_transpose_block_by_block() {
                     copies(&mut found, change);
                     found
                 };
-                let (y, mut back) = (of_block(&y), Made::none(cells));
+                let (y, mut back) = (of_block(&y), Made::none(at.scene));
                 let Made { before, former, drive, numbers } = &mut back;
                 increment
                     .transposed(&mut equations, y.clone(), [before, former], (drive, numbers), &mut 0.0)

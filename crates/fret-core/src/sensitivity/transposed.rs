@@ -30,6 +30,17 @@ impl Linearised<'_> {
     /// them those of motions: the right side of the transposed equations that is left, and what tractions in the contact count, packed. With no
     /// multipliers and no displacements this is the transpose of [`parted`](Self::parted).
     pub fn left_of(&mut self, counts: &Solution, rows: &[f64]) -> (Vec<f64>, Fields) {
+        let (tractions, by_motions) = self.tractions_of(counts, rows);
+        let mut left = vec![0.0; self.len()];
+        self.rows.unknowns((&tractions, [0.0; MOTIONS]), (rows, -1.0), &mut left);
+        for (motion, left) in left[3 * self.cells.len()..].iter_mut().enumerate() {
+            *left = self.own[0] * (counts.motions[motion] + by_motions[motion]);
+        }
+        (left, tractions)
+    }
+
+    /// What tractions in the contact count, packed, and the motions by what the multipliers see of them.
+    pub fn tractions_of(&mut self, counts: &Solution, rows: &[f64]) -> (Fields, [f64; MOTIONS]) {
         let mut seen = self.rows.no_fields();
         let by_motions = self.rows.seen(rows, &mut seen);
         let mut displacements = counts.displacements.clone();
@@ -47,12 +58,7 @@ impl Linearised<'_> {
                 add_scaled(traction, 1.0, &by);
             }
         }
-        let mut left = vec![0.0; self.len()];
-        self.rows.unknowns((&tractions, [0.0; MOTIONS]), (rows, -1.0), &mut left);
-        for (motion, left) in left[3 * self.cells.len()..].iter_mut().enumerate() {
-            *left = self.own[0] * (counts.motions[motion] + by_motions[motion]);
-        }
-        (left, tractions)
+        (tractions, by_motions)
     }
 
     /// The transpose of the right side: of displacements asked for, packed, and of what is prescribed of the motions.

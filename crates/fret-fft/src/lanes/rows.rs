@@ -63,6 +63,8 @@ impl<L: Lanes> Task<L> for RowsForward<'_, '_, L::Number> {
         let (staging, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
         let staging = as_vectors_mut::<L>(staging);
         let lines = &mut as_lines_mut::<L>(scratch)[..plan.padded_length()];
+        // Frequencies that fill the last strip up: what was left there would go into the spectra, and grow from product to product.
+        lines[plan.length()..].fill([lanes.zero(); 2]);
         for (group, mut to) in (first..).zip(groups.each()) {
             let rows = nx.saturating_sub(group * L::WIDTH).min(L::WIDTH);
             if rows == 0 {
