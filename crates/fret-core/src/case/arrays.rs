@@ -91,6 +91,7 @@ pub(super) fn fitting(
         return listed(judge, (count, size), (place, span), &array, layout.unit_of_places);
     }
     let (array, other) = match layout.rows {
+        Axis::X if array.is_standard_layout() => (array, "y"),
         Axis::X => (array.as_standard_layout().into_owned(), "y"),
         Axis::Y => (turned(array), "x"),
     };

@@ -81,7 +81,27 @@ impl Profile {
         let cells = grid.cells();
         let [width, depth] = grid.size();
         let beyond = BEYOND_THE_BODY * width.hypot(depth);
-        let mut gap = Array2::zeros(cells);
+        let mut fitting = self.heights.iter().filter(|heights| heights.cells() == cells);
+        let alone = if self.shapes.is_empty() { fitting.next() } else { None };
+        let mut gap = alone.map_or_else(
+            || self.gap_of_shapes(grid),
+            |heights| heights.depths().as_standard_layout().into_owned(),
+        );
+        for heights in fitting {
+            gap += heights.depths();
+        }
+        let mut first = 0.0;
+        if self.is_lowest_anywhere(cells) {
+            first = gap.iter().copied().fold(self.middle(), f64::min);
+        }
+        let first = if first.is_finite() { first } else { 0.0 };
+        gap.mapv_inplace(|gap| (gap - first).min(beyond));
+        gap
+    }
+
+    /// The same of the shapes alone, as they are [length].
+    fn gap_of_shapes(&self, grid: &SurfaceGrid) -> Array2<f64> {
+        let mut gap = Array2::zeros(grid.cells());
         let values = gap.as_slice_mut().unwrap_or_default();
         in_portions((grid.len(), NUMBERS), [values], &|cells, [gap]| {
             for (gap, cell) in gap.iter_mut().zip(cells) {
@@ -89,17 +109,6 @@ impl Profile {
                 *gap = self.gap_of_shapes_at(grid.centre(0, i), grid.centre(1, j));
             }
         });
-        let fitting = || self.heights.iter().filter(|heights| heights.cells() == cells);
-        for heights in fitting() {
-            gap += heights.depths();
-        }
-        if self.is_lowest_anywhere(cells) {
-            let first = gap.iter().copied().fold(self.middle(), f64::min);
-            if first.is_finite() {
-                gap -= first;
-            }
-        }
-        gap.mapv_inplace(|gap| gap.min(beyond));
         gap
     }
 
