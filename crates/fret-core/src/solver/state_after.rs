@@ -77,8 +77,7 @@ pub(super) fn state_after(
         let way = length_of_way(integration, slip, zones, [shear_before, q]);
         dissipate(at, dissipation([bound_before[place], bound[place]], way));
     }
-    let may_have_had_shear = if problem.touched { region.len() } else { 0 };
-    for cell in (0..may_have_had_shear).filter(|&cell| pressure[cell] <= 0.0) {
+    for cell in (0..region.len()).filter(|&cell| problem.touched && pressure[cell] <= 0.0) {
         let at = region.at(cell);
         let shear = [0, 1].map(|axis| before.shear[axis][at]);
         if shear == [0.0; 2] {

@@ -27,10 +27,11 @@ pub fn prolonged(
     };
     let [nx, ny] = fine.shape;
     let mut finer = Interpolation::new(&level, fine.shape);
-    // Heights of a row, of the one before it and of the one behind it.
+    // Heights of the row before, of a row and of the one behind it.
     let mut heights = [vec![0.0; ny], vec![0.0; ny], vec![0.0; ny]];
     finer.row(0, &mut heights[1]);
-    heights[0] = heights[1].clone();
+    let [before, first, _] = &mut heights;
+    before.clone_from(first);
     let mut pressure = Array2::zeros(cells);
     let mut found = 0.0;
     for i in 0..nx {
