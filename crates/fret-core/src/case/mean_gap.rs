@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::file::CaseFile;
 use super::hardness::of_softer;
 use super::judge::{Judge, WithoutMeanGap};
+use super::stage_file::StageFile;
 use crate::kernel::uniform_response;
 use crate::model::{ContactPair, Profile, SurfaceGrid};
 use crate::topography::Cells;
@@ -37,6 +38,10 @@ pub(super) fn mean_plane(
     }
     if of_softer(file).is_some() {
         return Err(("of surfaces that yield: it changes with them", other));
+    }
+    let counts = |stage: &StageFile| stage.table.is_some() || stage.controls.of(MEAN_GAP).is_some();
+    if !file.load.value.iter().any(|stage| counts(&stage.value)) {
+        return Ok(0.0); // nobody asks for it
     }
     // What was refused before is told there.
     let spaced = over.and_then(|over| {

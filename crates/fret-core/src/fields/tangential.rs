@@ -12,7 +12,7 @@ pub fn length([x, y]: [f64; 2]) -> f64 {
     (x * x + y * y).sqrt()
 }
 
-/// A tangential field: x and y components.
+/// A tangential field: x and y components. Without friction a solver's fields have no cells: they are zero.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct TangentialField {
     /// Component along x.
@@ -49,6 +49,11 @@ impl TangentialField {
     /// Vector at a cell.
     pub fn at(&self, cell: usize) -> [f64; 2] {
         [self.x[cell], self.y[cell]]
+    }
+
+    /// The same of a field that may have no cells: then it is zero everywhere.
+    pub fn at_or_zero(&self, cell: usize) -> [f64; 2] {
+        if self.x.is_empty() { [0.0; 2] } else { self.at(cell) }
     }
 
     /// Puts a vector at a cell.

@@ -35,11 +35,11 @@ pub struct Heights {
     surface: Option<Arc<MeasuredSurface>>,
 }
 
-/// Depths below the highest point [length], and a hash of them, found when it is first asked for.
+/// Depths below the highest point [length]; a hash of them, their root mean square and the largest, found when they are first asked for.
 #[derive(Debug)]
 struct Depths {
     values: Array2<f64>,
-    hash: OnceLock<String>,
+    summary: OnceLock<(String, [f64; 2])>,
 }
 
 impl PartialEq for Depths {
@@ -75,7 +75,7 @@ impl Heights {
         detrend.remove_from(&mut heights);
         let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         heights.mapv_inplace(|height| highest - height);
-        let depths = Depths { values: heights, hash: OnceLock::new() };
+        let depths = Depths { values: heights, summary: OnceLock::new() };
         Ok(Self { source: source.to_owned(), depths: Arc::new(depths), treatment: None, surface: None })
     }
 
@@ -175,10 +175,11 @@ pub struct HeightsSummary {
 
 impl Serialize for Heights {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let valley = self.depths().iter().copied().fold(0.0, f64::max);
-        let hash = self.depths.hash.get_or_init(|| fingerprint(self.depths()));
-        let (source, fnv1a64) = (self.source.clone(), hash.clone());
-        let (cells, rms, treatment) = (self.cells(), self.rms(), self.treatment().cloned());
+        let valley = || self.depths().iter().copied().fold(0.0, f64::max);
+        let summary = || (fingerprint(self.depths()), [self.rms(), valley()]);
+        let (hash, [rms, valley]) = self.depths.summary.get_or_init(summary).clone();
+        let (source, fnv1a64) = (self.source.clone(), hash);
+        let (cells, treatment) = (self.cells(), self.treatment().cloned());
         let has_creases = self.are_coarser_than(cells);
         HeightsSummary { source, cells, rms, valley, fnv1a64, treatment, has_creases }.serialize(serializer)
     }

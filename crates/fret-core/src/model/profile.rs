@@ -1,6 +1,6 @@
 //! The undeformed gap between the bodies: zero at first touch, positive elsewhere.
 
-use ndarray::Array2;
+use ndarray::{Array2, CowArray, Ix2};
 use serde::{Deserialize, Serialize};
 
 use super::grid::SurfaceGrid;
@@ -31,6 +31,14 @@ pub struct Profile<H = Heights> {
 impl Default for Profile {
     fn default() -> Self {
         Self { shapes: Vec::new(), heights: Vec::new(), of_upper: [0; 2] }
+    }
+}
+
+/// Depths of heights [length], as they are or carried.
+fn depths(heights: &Heights, carried: Option<([isize; 2], Outside)>) -> CowArray<'_, f64, Ix2> {
+    match carried {
+        None => heights.depths().into(),
+        Some((by, outside)) => carried_by_whole_cells(heights.depths(), by, (outside, 0.0)).into(),
     }
 }
 
@@ -86,19 +94,33 @@ impl Profile {
     pub fn gap(&self, grid: &SurfaceGrid) -> Array2<f64> {
         let cells = grid.cells();
         let mut gap = self.sum(grid, None);
-        if self.is_lowest_anywhere(cells) {
-            let first = gap.iter().copied().fold(self.middle(), f64::min);
-            if first.is_finite() {
-                gap -= first;
-            }
-        }
-        gap.mapv_inplace(|gap| gap.min(beyond(grid)));
+        let first = if self.is_lowest_anywhere(cells) {
+            gap.iter().copied().fold(self.middle(), f64::min)
+        } else {
+            0.0
+        };
+        let (first, beyond) = (if first.is_finite() { first } else { 0.0 }, beyond(grid));
+        gap.mapv_inplace(|gap| (gap - first).min(beyond));
         gap
     }
 
     /// Sum of the shapes and of the heights at the cell centres [length]; of heights that have been `carried` by whole cells along each axis, with what
     /// lies beyond them, where they have.
     fn sum(&self, grid: &SurfaceGrid, carried: Option<([isize; 2], Outside)>) -> Array2<f64> {
+        let mut fitting = self.heights.iter().filter(|heights| heights.cells() == grid.cells());
+        let alone = if self.shapes.is_empty() { fitting.next() } else { None };
+        let mut sum = match alone {
+            Some(heights) => depths(heights, carried).as_standard_layout().into_owned(),
+            None => self.sum_of_shapes(grid),
+        };
+        for heights in fitting {
+            sum += &depths(heights, carried);
+        }
+        sum
+    }
+
+    /// The same of the shapes alone [length].
+    fn sum_of_shapes(&self, grid: &SurfaceGrid) -> Array2<f64> {
         let mut sum = Array2::zeros(grid.cells());
         let values = sum.as_slice_mut().unwrap_or_default();
         in_portions((grid.len(), NUMBERS), [values], &|cells, [sum]| {
@@ -107,14 +129,6 @@ impl Profile {
                 *sum = self.gap_of_shapes_at(grid.centre(0, i), grid.centre(1, j));
             }
         });
-        for heights in self.heights.iter().filter(|heights| heights.cells() == grid.cells()) {
-            match carried {
-                None => sum += heights.depths(),
-                Some((by, outside)) => {
-                    sum += &carried_by_whole_cells(heights.depths(), by, (outside, 0.0));
-                }
-            }
-        }
         sum
     }
 

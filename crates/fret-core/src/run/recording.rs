@@ -3,7 +3,7 @@
 use ndarray::Array2;
 
 use crate::fields::{copied, largest};
-use crate::history::{DebrisRecord, Footprint, KeptFields, PlasticRecord, Residual, StepRecord};
+use crate::history::{DebrisRecord, Footprint, KeptFields, PlasticRecord, Regime, Residual, StepRecord};
 use crate::machine::memory::MemoryError;
 use crate::model::{CellMap, CellValues, ContactState, CoulombFriction, Periodicity, Rig, Symmetry, Zone};
 use crate::solver::Increment;
@@ -22,7 +22,8 @@ pub fn record(
     let larger = |most: f64, (x, y): (&f64, &f64)| {
         if x.abs() + y.abs() > most { most.max(x.hypot(*y)) } else { most }
     };
-    let max_shear = qx.iter().zip(qy).fold(0.0, larger);
+    let rubs = !matches!(outcome.regime, Regime::Apart | Regime::Frictionless);
+    let max_shear = if rubs { qx.iter().zip(qy).fold(0.0, larger) } else { 0.0 };
     StepRecord {
         increment,
         stage,

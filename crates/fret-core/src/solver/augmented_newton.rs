@@ -64,7 +64,8 @@ pub fn solve(
         if !method.projected(tractions, displacements, operators) {
             return Ok(None);
         }
-        match newton::solve(problem, tractions, displacements, operators, settings, callback) {
+        let motion = method.here.motion;
+        match newton::solve_near(problem, motion, tractions, displacements, operators, settings, callback) {
             Err(SolveError::NotConverged { .. }) if goes_on => {}
             Err(SolveError::NotConverged { .. }) => return Ok(None),
             other => return other.map(Some),

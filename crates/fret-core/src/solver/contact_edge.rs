@@ -161,38 +161,39 @@ pub const NEAR: usize = 2;
 /// slopes of both along grid lines across the edge equal (of foundations those of a parabola). Farther out than two cells it is just
 /// negative. `None` when no grid line crosses an edge.
 pub fn level_function(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>) -> Option<Array2<f64>> {
-    level_of(Rise::ROOT, pressure, gap, f64::INFINITY, [Ends::Open; 2]).map(|(level, _)| level)
+    let near = near_the_contact(pressure, [Ends::Open; 2]);
+    level_of(Rise::ROOT, (pressure, gap), &near, f64::INFINITY, [Ends::Open; 2]).map(|(level, _)| level)
 }
 
 /// The level function of pressures that rise so, and how many cells beyond its last one pressure would reach zero, in the median of
-/// the edges. Cells with a gap wider than `beyond`, where a body has ended, tell nothing about the edge.
+/// the edges. `near`: the cells near the contact. Cells with a gap wider than `beyond`, where a body has ended, tell nothing about the edge.
 fn level_of(
     rise: Rise,
-    pressure: &ArrayView2<'_, f64>,
-    gap: &ArrayView2<'_, f64>,
+    (pressure, gap): (&ArrayView2<'_, f64>, &ArrayView2<'_, f64>),
+    near: &[usize],
     beyond: f64,
     ends: [Ends; 2],
 ) -> Option<(Array2<f64>, f64)> {
     let (nx, ny) = pressure.dim();
-    let near = near_the_contact(pressure, ends);
-    let value = |((&p, &gap), near): ((&f64, &f64), bool)| {
-        if p > 0.0 {
-            rise.inside(p)
-        } else if near && gap <= beyond {
-            -rise.outside(gap.max(0.0))
-        } else {
-            f64::NEG_INFINITY
-        }
-    };
-    let mut level: Vec<f64> = pressure.iter().zip(gap).zip(near).map(value).collect();
-    let mut slopes = Slopes::default();
-    for line in level.chunks_exact(ny) {
-        for four in line.windows(4) {
-            slopes.read([four[0], four[1], four[2], four[3]]);
+    let mut level = vec![f64::NEG_INFINITY; nx * ny];
+    for &cell in near {
+        let at = [cell / ny, cell % ny];
+        if pressure[at] > 0.0 {
+            level[cell] = rise.inside(pressure[at]);
+        } else if gap[at] <= beyond {
+            level[cell] = -rise.outside(gap[at].max(0.0));
         }
     }
-    for four in level.windows(3 * ny + 1) {
-        slopes.read([four[0], four[ny], four[2 * ny], four[3 * ny]]);
+    let mut slopes = Slopes::default();
+    // Of four in a row across an edge the second one is near the contact.
+    for &second in near {
+        let (i, j) = (second / ny, second % ny);
+        if j >= 1 && j + 2 < ny {
+            slopes.read([level[second - 1], level[second], level[second + 1], level[second + 2]]);
+        }
+        if i >= 1 && i + 2 < nx {
+            slopes.read([level[second - ny], level[second], level[second + ny], level[second + 2 * ny]]);
+        }
     }
     for four in ends[1].fours(ny) {
         for line in level.chunks_exact(ny) {
@@ -207,7 +208,8 @@ fn level_of(
     let reach = slopes.reach()?;
     let kappa = slopes.ratio()? * rise.steeper;
     let mut lowest = 0.0_f64;
-    for value in &mut level {
+    for &cell in near {
+        let value = &mut level[cell];
         if *value <= 0.0 && *value > f64::NEG_INFINITY {
             *value *= kappa;
             lowest = lowest.min(*value);
@@ -261,8 +263,8 @@ impl Slopes {
     }
 }
 
-/// Cells with a loaded one at most [`NEAR`] away along both axes.
-fn near_the_contact(pressure: &ArrayView2<'_, f64>, ends: [Ends; 2]) -> Vec<bool> {
+/// Cells with a loaded one at most [`NEAR`] away along both axes, in their order.
+fn near_the_contact(pressure: &ArrayView2<'_, f64>, ends: [Ends; 2]) -> Vec<usize> {
     let columns = pressure.ncols();
     let mut near: Vec<bool> = pressure.iter().map(|p| *p > 0.0).collect();
     let mut before = near.clone();
@@ -270,7 +272,10 @@ fn near_the_contact(pressure: &ArrayView2<'_, f64>, ends: [Ends; 2]) -> Vec<bool
     for line in near.chunks_exact_mut(columns) {
         spread(line, 1, ends[1], &mut before[..columns]);
     }
-    near
+    let groups = near.chunks(16).enumerate().filter(|(_, group)| group.contains(&true));
+    groups
+        .flat_map(|(first, group)| (16 * first..).zip(group).filter(|(_, near)| **near).map(|(cell, _)| cell))
+        .collect()
 }
 
 /// Marks what has a marked neighbour at most [`NEAR`] places of `stride` away. `before`: room for the marks before.
@@ -305,7 +310,8 @@ pub fn contact_cells(
 ) -> f64 {
     let (nx, ny) = pressure.dim();
     let rise = Rise::of(pressure, ends);
-    let level = match level_of(rise, pressure, gap, beyond, ends) {
+    let near = near_the_contact(pressure, ends);
+    let level = match level_of(rise, (pressure, gap), &near, beyond, ends) {
         Some((level, reach)) if reach <= STEP => level,
         _ => return pressure.iter().filter(|p| **p > 0.0).count() as f64,
     };
@@ -318,13 +324,14 @@ pub fn contact_cells(
     let line = |i: usize| &kinds[i * ny..][..ny];
     let mut threes = vec![0; ny];
     let mut area = 0.0;
-    for i in 0..nx {
+    for row in near.chunk_by(|a, b| a / ny == b / ny) {
+        let i = row[0] / ny;
         let rows = ends[0].around(i, nx);
         let [low, here, high] = rows.map(line);
         for (((three, low), here), high) in threes.iter_mut().zip(low).zip(here).zip(high) {
             *three = low | here | high;
         }
-        for j in 0..ny {
+        for j in row.iter().map(|cell| cell % ny) {
             let columns = ends[1].around(j, ny);
             match threes[columns[0]] | threes[j] | threes[columns[2]] {
                 LOADED => area += 1.0,

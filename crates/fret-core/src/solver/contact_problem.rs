@@ -89,7 +89,7 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// That of so many cells without slip, under motions.
+    /// That of so many cells without slip, under motions; without friction fields of slip need none.
     pub fn without_slip(cells: usize, motion: [f64; 3]) -> Self {
         Self {
             normal: NormalResidual { approach: 0.0, turned: [0.0; 2], residual: 0.0 },

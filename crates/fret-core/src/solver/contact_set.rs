@@ -50,8 +50,11 @@ impl ContactSet {
         packed
     }
 
-    /// A packed copy of a tangential field of the region.
+    /// A packed copy of a tangential field of the region; of zeros where that has no cells.
     pub fn packed_tangential(&self, field: &TangentialField) -> TangentialField {
+        if field.x.is_empty() {
+            return TangentialField::zeros(self.len);
+        }
         TangentialField { x: self.packed(&field.x), y: self.packed(&field.y) }
     }
 

@@ -33,7 +33,7 @@ pub fn solve(
     callback: IterationCallback<'_>,
 ) -> Result<Solved, SolveError> {
     let settings = &increment.limited(method.settings);
-    let touched = increment.touched();
+    let touched = increment.touched;
     let mut displacements = Displacements::zeros(increment.region.len());
     let before = increment.displacement_before(last.filter(|_| touched), operators);
     // A contact that has shrunk to less than a cell leaves no pressure to go on from: nor does a first one.

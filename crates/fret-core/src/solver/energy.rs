@@ -24,7 +24,7 @@ use crate::model::ContactState;
 
 /// The state before an increment, under the surfaces and the bodies of now, in the cells of the region.
 pub struct StateBefore {
-    /// Gap [length].
+    /// Gap [length]; empty where bodies have not touched: then it is that before deformation.
     gap: Vec<f64>,
     /// Its displacements, where they were found anew.
     pub displacements: Option<Displacements>,
@@ -44,23 +44,32 @@ impl IncrementProblem<'_> {
     /// The state before, of surfaces that may have changed since. Where the bodies touched, its displacements are found by operators.
     pub fn state_before(&self, operators: Option<&mut RegionOperators>) -> StateBefore {
         let Self { region, state, .. } = self;
+        let area = self.grid.cell_area() * self.copies as f64;
+        if operators.is_none() && !self.touched {
+            let worn = [0.0, state.elastic_energy / area];
+            return StateBefore { gap: Vec::new(), displacements: None, worn };
+        }
         let found = operators.map(|operators| self.displacements_of_state(operators, true));
         let mut gap = Vec::with_capacity(region.len());
         let (mut opened, mut stored) = (0.0, 0.0);
         for cell in 0..region.len() {
             let at = region.at(cell);
-            let tilted = self.tilted(at, self.tilt);
             let [normal, x, y] =
                 found.as_ref().map_or([0.0; 3], |found| found.parts().map(|part| part[cell]));
-            let moved = self.moved.as_ref().map_or(0.0, |moved| moved[cell]);
-            let here = self.undeformed[cell] - moved + tilted + normal - state.approach;
+            let here = self.gap_before(cell, normal);
             gap.push(here);
             opened += state.pressure[at] * here;
             stored += state.pressure[at] * normal + state.shear[0][at] * x + state.shear[1][at] * y;
         }
-        let area = self.grid.cell_area() * self.copies as f64;
         let worn = [opened, opened + state.elastic_energy / area - 0.5 * stored];
         StateBefore { gap, displacements: found, worn }
+    }
+
+    /// Gap in the state before by a normal displacement [length].
+    fn gap_before(&self, cell: usize, displacement: f64) -> f64 {
+        let tilted = self.tilted(self.region.at(cell), self.tilt);
+        let moved = self.moved.as_ref().map_or(0.0, |moved| moved[cell]);
+        self.undeformed[cell] - moved + tilted + displacement - self.state.approach
     }
 
     /// By how much a body with this tilt is deeper in a cell than in the state before [length].
@@ -92,11 +101,11 @@ impl IncrementProblem<'_> {
             if pressure == 0.0 {
                 continue;
             }
-            let shear = solved.tractions.shear.at(cell);
+            let shear = solved.tractions.shear.at_or_zero(cell);
             let [x, y] = [0, 1].map(|axis| 0.5 * (state.shear[axis][at] + shear[axis]));
             let [from_x, from_y] = self.arm(at);
             let [to_x, to_y] = [moved[0] - turned * from_y, moved[1] + turned * from_x];
-            let drift = solved.drift.at(cell);
+            let drift = solved.drift.at_or_zero(cell);
             work += pressure * (approached + self.tilted(at, after.tilt)) + x * to_x + y * to_y;
             if let Some(moved) = &self.moved {
                 work -= pressure * moved[cell];
@@ -105,7 +114,8 @@ impl IncrementProblem<'_> {
                 work += x * carried.x[cell] + y * carried.y[cell];
             }
             slipped += x * drift[0] + y * drift[1];
-            opened += pressure * (before.gap[cell] - solved.solution.gap[cell]);
+            let gap_before = before.gap.get(cell).copied().unwrap_or_else(|| self.gap_before(cell, 0.0));
+            opened += pressure * (gap_before - solved.solution.gap[cell]);
             if let Some(depth) = solved.yielded.get(cell) {
                 given_way += pressure * depth;
                 yielded += hardness * depth;

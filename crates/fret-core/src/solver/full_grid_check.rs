@@ -12,21 +12,22 @@ use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance};
 use crate::model::{BEYOND_THE_BODY, ContactState};
 
 impl ContactSolver<'_> {
-    /// Gap on the whole grid from tractions in a region.
+    /// Gap on the whole grid from tractions in a region; where that is all of it, taken out of the solution.
     pub(super) fn gap_everywhere(
         &mut self,
         region: Region,
-        solved: &Solved,
+        solved: &mut Solved,
         state: &ContactState,
     ) -> Result<Array2<f64>, SolveError> {
         let cells = self.grid.cells();
         let whole = Region::whole(cells);
-        let mut gap = Array2::zeros(cells);
-        if region == whole {
+        if region == whole
+            && let Ok(gap) = Array2::from_shape_vec(cells, std::mem::take(&mut solved.solution.gap))
+        {
             self.full_grid = None;
-            whole.place(&solved.solution.gap, &mut gap);
             return Ok(gap);
         }
+        let mut gap = Array2::zeros(cells);
         let coupled = self.coupling == Coupling::Coupled;
         let give = if self.full_grid.is_none() { self.give_in(whole) } else { Vec::new() };
         let operator = match &mut self.full_grid {

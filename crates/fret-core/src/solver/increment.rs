@@ -61,11 +61,11 @@ impl ContactSolver<'_> {
                 (region, start) = (whole, None);
                 continue;
             }
-            let (solved, after, outcome) = solved?;
+            let (mut solved, after, outcome) = solved?;
             self.set_tilt(after.tilt);
             self.check(load, &after, &outcome, solved.solution.iterations)?;
             self.take_plastic_depth(&after);
-            let (gap, contact_area) = self.gap_and_area((region, load), &solved, &after)?;
+            let (gap, contact_area) = self.gap_and_area((region, load), &mut solved, &after)?;
             if self.overlaps_outside(region, &gap) {
                 region = whole;
                 start = start.map(|_| after.pressure);
@@ -124,7 +124,7 @@ impl ContactSolver<'_> {
         let known = self.memory.last.as_ref().map(|last| StateBefore::of_gap(&last.gap, region));
         let by_cell = || keeps_work.then(|| Array2::zeros(grid.cells()));
         let apart = match increment.apart() {
-            Some(solved) if !increment.touched() => {
+            Some(solved) if !increment.touched => {
                 let before = known.unwrap_or_else(|| increment.state_before(None));
                 let rule = (0.0, self.settings.integration);
                 self.friction_work = by_cell();
@@ -136,11 +136,11 @@ impl ContactSolver<'_> {
         };
         let mut operators = self.operators_for(region)?;
         let before =
-            known.unwrap_or_else(|| increment.state_before(increment.touched().then_some(&mut operators)));
+            known.unwrap_or_else(|| increment.state_before(increment.touched.then_some(&mut operators)));
         let solved = if let Some(apart) = apart {
             Ok(increment.parted(apart, self.displacements_before(&increment, &before), &mut operators))
         } else {
-            increment.start = start.map(|pressure| region.gather(pressure));
+            increment.start = start.map(|pressure| region.gathered(pressure));
             let tractions = self.predicted(start, (state, load), region);
             if let Some(pace) = pace {
                 let beyond =
@@ -216,7 +216,7 @@ impl ContactSolver<'_> {
     fn gap_and_area(
         &mut self,
         (region, load): (Region, &LoadStep),
-        solved: &Solved,
+        solved: &mut Solved,
         after: &ContactState,
     ) -> Result<(Array2<f64>, f64), SolveError> {
         if let Some(last) = self.whose_pressure_is_kept(region, load) {
@@ -262,9 +262,10 @@ impl ContactSolver<'_> {
         if !pauses {
             let contact_area = last.as_ref().map_or(0.0, |last| last.contact_area);
             let (gap, drift) = last.filter(|_| pace.is_some()).map(|last| (last.gap, last.drift)).unzip();
-            let tractions = GridTractions::of(state);
             let previous = self.memory.last_load.replace(*load);
-            self.memory.before = previous.map(|load| Before { load, tractions, contact_area, gap, drift });
+            let before =
+                |load| Before { load, tractions: GridTractions::of(state), contact_area, gap, drift };
+            self.memory.before = previous.map(before);
         }
         self.memory.last = Some(LastIncrement {
             region,

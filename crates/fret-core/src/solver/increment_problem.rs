@@ -1,5 +1,7 @@
 //! One increment in a region: everything that its equations need, gathered.
 
+use std::borrow::Cow;
+
 use ndarray::Array2;
 
 use super::contact_problem::{ContactProblem, Pressure, Solution};
@@ -46,6 +48,8 @@ pub struct IncrementProblem<'a> {
     /// That of the state before, where maps have moved since then.
     pub friction_before: Option<FrictionLaw>,
     pub positions: CellPositions,
+    /// Whether the bodies touched in the state before.
+    pub touched: bool,
     /// Gap before deformation [length], and the tilt of the upper body in it.
     pub undeformed: Vec<f64>,
     pub tilt: [f64; 2],
@@ -65,7 +69,7 @@ pub struct IncrementProblem<'a> {
     /// Whether nothing changes in it.
     pub pauses: bool,
     /// A pressure to start from, whatever the state before.
-    pub start: Option<Vec<f64>>,
+    pub start: Option<Cow<'a, [f64]>>,
 }
 
 /// Where the cells of a region are along an axis [length].
@@ -105,6 +109,7 @@ impl<'a> IncrementProblem<'a> {
             grid,
             copies,
             state,
+            touched: state.pressure.iter().any(|p| *p > 0.0),
             load,
             region,
             coupling,
@@ -168,7 +173,7 @@ impl<'a> IncrementProblem<'a> {
     /// A first pressure [pressure].
     pub fn first_pressure(&self, operators: &RegionOperators) -> Vec<f64> {
         if let Some(start) = &self.start {
-            return start.clone();
+            return start.to_vec();
         }
         first_pressure(&self.normal_equations(), operators.compliance.self_influence().normal)
     }
@@ -181,11 +186,6 @@ impl<'a> IncrementProblem<'a> {
     /// The motions along the normal, where a moment of the pressure is prescribed.
     pub fn tilt_motions(&self) -> Option<TiltMotions> {
         self.normal_equations().tilt()
-    }
-
-    /// Whether the bodies touched in the state before.
-    pub fn touched(&self) -> bool {
-        self.state.pressure.iter().any(|p| *p > 0.0)
     }
 
     /// Whether anything asks for shear, or has left some.

@@ -23,6 +23,9 @@ use crate::fields::{TangentialField, add_scaled, largest, lower, sum};
 /// cells per side take up to 3 % more applications with 0.1 and 0.01; with 0, groups of cells go to and fro and increments fail.
 const FAR: f64 = 1e-3;
 
+/// Known motions are believed where they leave less than this fraction of what motions that are looked for from none leave over.
+const BELIEVED: f64 = 0.5;
+
 /// Tractions on their way to the solution, with everything that follows from them.
 pub struct Iterate<'a> {
     problem: &'a ContactProblem<'a>,
@@ -39,6 +42,8 @@ pub struct Iterate<'a> {
     gap: Vec<f64>,
     normal: NormalResidual,
     tangential: TangentialResidual,
+    /// Motions that are known before any are found.
+    known_motion: Option<[f64; 3]>,
     slip: SlipIncrement,
     sets: ActiveSets,
     step: ContactVector<f64>,
@@ -92,6 +97,7 @@ impl<'a> Iterate<'a> {
             gap: Vec::new(),
             normal: NormalResidual { approach: problem.normal.approach, turned: [0.0; 2], residual: 0.0 },
             tangential: TangentialResidual { motion: [0.0; 3], residual: 0.0 },
+            known_motion: None,
             slip: SlipIncrement::default(),
             sets: ActiveSets::default(),
             step: ContactVector::default(),
@@ -100,6 +106,17 @@ impl<'a> Iterate<'a> {
         };
         iterate.change_contact(contact);
         iterate
+    }
+
+    /// The same of known rigid motions. Where paths of slip turn more than one goes with the same tractions.
+    pub fn near_motion(self, motion: [f64; 3]) -> Self {
+        let known_motion = Some(motion).filter(|_| self.problem.path.turns());
+        Self { known_motion, ..self }
+    }
+
+    /// Whether pressure and shear are unknown.
+    pub fn is_of_both(&self) -> bool {
+        self.problem.pressure == Pressure::Unknown
     }
 
     fn change_contact(&mut self, contact: ContactSet) {
@@ -116,7 +133,7 @@ impl<'a> Iterate<'a> {
     pub fn evaluate(&mut self) -> f64 {
         let problem = self.problem;
         let mut worst = 0.0;
-        if problem.pressure == Pressure::Unknown {
+        if self.is_of_both() {
             let Self { gap, tilt, tractions, displacements, self_influence: [own, _], .. } = self;
             let (pressure, displacement) = (&tractions.pressure, &displacements.normal);
             let approach = problem.normal.approach_under(pressure);
@@ -140,6 +157,13 @@ impl<'a> Iterate<'a> {
         let equations = packed.tangential_problem(motions, *own);
         let Packed { shear, displacement, .. } = &*packed;
         self.tangential = self.slip.find(&equations, shear, displacement, self.tangential.motion);
+        if let Some(motion) = self.known_motion.take() {
+            let mut slip = SlipIncrement::default();
+            let found = slip.find(&equations, shear, displacement, motion);
+            if found.residual < BELIEVED * self.tangential.residual {
+                (self.tangential, self.slip) = (found, slip);
+            }
+        }
         worst.max(self.tangential.residual)
     }
 

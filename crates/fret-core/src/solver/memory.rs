@@ -143,7 +143,11 @@ impl SolverMemory {
         let by = cells.map(|cells| cells as f64);
         let whole = |field: &Array2<f64>| carried(field, by, Outside::Edge);
         let of_region = |from: Region, field: &[f64], grid: [usize; 2]| {
-            if ends_inside && from == Region::whole(grid) && cells.iter().all(|by| by.abs() <= 1) {
+            if !field.is_empty()
+                && ends_inside
+                && from == Region::whole(grid)
+                && cells.iter().all(|by| by.abs() <= 1)
+            {
                 (from.carried_over_edges(field, cells), from)
             } else {
                 from.carried(field, cells, grid)
@@ -265,8 +269,10 @@ impl SolverMemory {
         let last_fits = |last: &LastIncrement| {
             let len = last.region.len();
             let Displacements { normal, tangential } = &last.displacements;
+            let along = [tangential.x.len(), tangential.y.len()];
             last.region.lies_within(cells)
-                && [normal.len(), tangential.x.len(), tangential.y.len()] == [len; 3]
+                && normal.len() == len
+                && (along == [len; 2] || along == [0; 2])
                 && last.drift.fits(cells)
                 && last.gap.dim() == cells.into()
         };

@@ -244,7 +244,7 @@ impl<'a> ContactSolver<'a> {
         Self {
             middle: [0, 1].map(|axis| if mirrored[axis] { 0.25 * size[axis] } else { 0.0 }),
             grid: SurfaceGrid::new(cells, self.grid.spacing()).unwrap_or(self.grid),
-            undeformed: symmetry.part(&self.undeformed),
+            undeformed: if symmetry.any() { symmetry.part(&self.undeformed) } else { self.undeformed },
             friction: match self.friction {
                 Cow::Borrowed(friction) => symmetry.part_of_friction(friction),
                 Cow::Owned(friction) => Cow::Owned(symmetry.part_of_friction(&friction).into_owned()),

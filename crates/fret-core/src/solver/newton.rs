@@ -3,7 +3,7 @@
 //! problem linearised on these sets is solved inexactly by a Krylov method, and what comes out is projected onto what the laws
 //! allow, with exact resultants; until all laws hold. Where the pressure is given, the same for shear alone.
 
-use super::contact_problem::{ContactProblem, Pressure, Solution};
+use super::contact_problem::{ContactProblem, Solution};
 use super::contact_set::ContactSet;
 use super::globalisation::ForcingTerm;
 use super::iterate::Iterate;
@@ -37,7 +37,32 @@ pub fn solve(
     settings: &SolverSettings,
     callback: IterationCallback<'_>,
 ) -> Result<Solution, SolveError> {
-    let mut iterate = Iterate::new(problem, tractions, displacements, operators);
+    go_on(Iterate::new(problem, tractions, displacements, operators), operators, settings, callback)
+}
+
+/// The same from tractions whose rigid `motion` another method has found.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_near(
+    problem: &ContactProblem<'_>,
+    motion: [f64; 3],
+    tractions: &mut Tractions,
+    displacements: &mut Displacements,
+    operators: &mut RegionOperators,
+    settings: &SolverSettings,
+    callback: IterationCallback<'_>,
+) -> Result<Solution, SolveError> {
+    let iterate = Iterate::new(problem, tractions, displacements, operators);
+    go_on(iterate.near_motion(motion), operators, settings, callback)
+}
+
+fn go_on(
+    mut iterate: Iterate<'_>,
+    operators: &mut RegionOperators,
+    settings: &SolverSettings,
+    callback: IterationCallback<'_>,
+) -> Result<Solution, SolveError> {
     let mut forcing = ForcingTerm::default();
     let mut circles_left = MOST_ROUNDS_TO_CIRCLES;
     // Shear alone has no other way to be left to; in the staggered scheme it is half a step.
@@ -46,7 +71,7 @@ pub fn solve(
         (true, false) => LOST_WITHOUT_GAIN_STIFF,
         (true, true) => LOST_WITHOUT_GAIN_IN_STIFF_PERIOD,
     };
-    let has_another_way = problem.pressure == Pressure::Unknown;
+    let has_another_way = iterate.is_of_both();
     for iteration in 0..settings.max_newton_iterations {
         let residual = iterate.evaluate();
         if callback(iteration, residual).is_break() {

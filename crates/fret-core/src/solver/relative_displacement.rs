@@ -94,6 +94,9 @@ impl IncrementProblem<'_> {
         last: Option<&Displacements>,
         operators: &mut RegionOperators,
     ) -> Solved {
+        if self.coupling == Coupling::Frictionless {
+            return apart;
+        }
         let before = self.displacement_before(last, operators);
         let drift = self.drift(&before, &apart.displacements.tangential, apart.solution.tangential.motion);
         Solved { drift, ..apart }
@@ -101,6 +104,9 @@ impl IncrementProblem<'_> {
 
     /// Makes the drift of cells that have come into contact what it would be in a whole increment at their rate from the moment of touch on.
     pub fn take_rate_since_touch(&self, solved: &mut Solved) {
+        if self.coupling == Coupling::Frictionless {
+            return;
+        }
         for cell in 0..self.region.len() {
             let was_open = self.state.zone[self.region.at(cell)] == Zone::Open;
             if was_open && solved.tractions.pressure[cell] > 0.0 {

@@ -34,8 +34,10 @@ pub fn solve(
     callback: IterationCallback<'_>,
 ) -> Result<Solved, SolveError> {
     let settings = &increment.limited(settings);
-    let cells = increment.region.len();
-    let mut displacements = Displacements::zeros(cells);
+    // Nothing along the surface is asked for without friction.
+    let cells = if increment.coupling == Coupling::Frictionless { 0 } else { increment.region.len() };
+    let normal = vec![0.0; increment.region.len()];
+    let mut displacements = Displacements { normal, tangential: TangentialField::zeros(cells) };
     let mut kept = None;
     if let (true, Some(last)) = (keeps_pressure, last) {
         tractions.pressure = increment.region.gather(&increment.state.pressure);
@@ -46,12 +48,11 @@ pub fn solve(
     let pressure = if let Some(kept) = kept {
         kept
     } else {
-        let usable = project_pressure(
-            &mut tractions.pressure,
-            increment.normal.total,
-            increment.tilt_motions().as_ref(),
-        );
-        if increment.start.is_some() || !increment.touched() || !usable {
+        let total = increment.normal.total;
+        let goes_on = increment.start.is_none()
+            && increment.touched
+            && project_pressure(&mut tractions.pressure, total, increment.tilt_motions().as_ref());
+        if !goes_on {
             tractions.pressure = increment.first_pressure(operators);
         }
         let predicted = increment.travels.then(|| tractions.pressure.clone());

@@ -54,7 +54,7 @@ pub(super) fn state_after(
             tilt_moment[axis] += place * pressure[cell];
             second_moment[axis] += place * place * pressure[cell];
         }
-        let [ux, uy] = moved.tangential.at(cell);
+        let [ux, uy] = moved.tangential.at_or_zero(cell);
         stored += pressure[cell] * moved.normal[cell] + q[0] * ux + q[1] * uy;
         let (zone, slip) = if slips(q, end, bound[place], stiffness) {
             (Zone::Slip, slip.at(place))
@@ -77,13 +77,13 @@ pub(super) fn state_after(
         let way = length_of_way(integration, slip, zones, [shear_before, q]);
         dissipate(at, dissipation([bound_before[place], bound[place]], way));
     }
-    for cell in (0..region.len()).filter(|&cell| pressure[cell] <= 0.0) {
+    for cell in (0..region.len()).filter(|&cell| problem.touched && pressure[cell] <= 0.0) {
         let at = region.at(cell);
         let shear = [0, 1].map(|axis| before.shear[axis][at]);
         if shear == [0.0; 2] {
             continue;
         }
-        let ((bound, _), drift) = (law_before.at(cell, before.pressure[at]), solved.drift.at(cell));
+        let ((bound, _), drift) = (law_before.at(cell, before.pressure[at]), solved.drift.at_or_zero(cell));
         let slip = if problem.travels { drift } else { slip_until_open(drift, shear, bound) };
         for axis in 0..2 {
             state.slip[axis][at] += slip[axis];

@@ -1,6 +1,8 @@
 //! What yields in an increment. Where the pressure is at the hardness and the surfaces would overlap they give way by the overlap, so that they
 //! touch again: perfect plasticity, without hardening and without pile-up. The depth stays, and is part of the gap from then on.
 
+use std::borrow::Cow;
+
 use ndarray::Array2;
 
 use super::energy::StateBefore;
@@ -61,7 +63,7 @@ impl ContactSolver<'_> {
                 Err(SolveError::NotConverged { .. }) => {}
                 Err(error) => return Err(error),
             }
-            increment.start = Some(tractions.pressure.clone());
+            increment.start = Some(Cow::Owned(tractions.pressure.clone()));
         }
         increment.normal = increment.normal.with_hardness(self.hardness);
         self.solve_with(operators, (increment, before), tractions, callback)

@@ -109,6 +109,7 @@ fn listed(
 /// An array with its first index along x.
 pub fn laid_out(array: Array2<f64>, rows: Axis) -> Array2<f64> {
     match rows {
+        Axis::X if array.is_standard_layout() => array,
         Axis::X => array.as_standard_layout().into_owned(),
         Axis::Y => turned(array),
     }

@@ -3,7 +3,7 @@
 
 use super::super::prescribed::NormalLoad;
 use super::tilt_motions::TiltMotions;
-use crate::fields::{CellRule, CellSize, Reals, each_cell, largest_of, lower, reset};
+use crate::fields::{CellRule, CellSize, Reals, each_cell, largest_of, lower};
 
 /// How well pressure and gap satisfy complementarity, and the approach found on the way.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,7 +59,9 @@ pub fn normal_residual(
         return NormalResidual { turned, ..found };
     }
     let turned = [0.0; 2];
-    reset(gap, pressure.len());
+    if gap.len() != pressure.len() {
+        *gap = vec![0.0; pressure.len()];
+    }
     let read = [pressure, displacement, undeformed];
     let [load, cells, heights, work, undeformed_work] = each_cell(&Loads, read, [gap]);
     let approach = approach

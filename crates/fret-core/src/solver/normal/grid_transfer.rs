@@ -25,15 +25,22 @@ pub fn prolonged(
         shape: [0, 1]
             .map(|axis| (2 * region.shape[axis]).min(cells[axis].saturating_sub(2 * region.origin[axis]))),
     };
-    let height = interpolated(&level, fine.shape);
     let [nx, ny] = fine.shape;
+    let mut finer = Interpolation::new(&level, fine.shape);
+    // Heights of the row before, of a row and of the one behind it.
+    let mut heights = [vec![0.0; ny], vec![0.0; ny], vec![0.0; ny]];
+    finer.row(0, &mut heights[1]);
+    let [before, first, _] = &mut heights;
+    before.clone_from(first);
     let mut pressure = Array2::zeros(cells);
     let mut found = 0.0;
     for i in 0..nx {
+        finer.row((i + 1).min(nx - 1), &mut heights[2]);
+        let [before, height, behind] = &heights;
         for j in 0..ny {
-            let here = height[[i, j]];
-            let along_x = height[[(i + 1).min(nx - 1), j]] - height[[i.saturating_sub(1), j]];
-            let along_y = height[[i, (j + 1).min(ny - 1)]] - height[[i, j.saturating_sub(1)]];
+            let here = height[j];
+            let along_x = behind[j] - before[j];
+            let along_y = height[(j + 1).min(ny - 1)] - height[j.saturating_sub(1)];
             // A root only where it may tell: near the edge.
             let is_far = here.abs() >= along_x.abs() + along_y.abs();
             let slope = if is_far { 0.0 } else { 0.5 * along_x.hypot(along_y) };
@@ -44,41 +51,62 @@ pub fn prolonged(
                 found += p;
             }
         }
+        heights.rotate_left(1);
     }
     if !(found > 0.0) {
         return None;
     }
     if let Some(total) = total {
         let factor = total / found;
-        pressure.mapv_inplace(|p| p * factor);
+        // Memory of zeros that nobody writes to costs nothing.
+        pressure.iter_mut().filter(|p| **p > 0.0).for_each(|p| *p *= factor);
     }
     Some(pressure)
 }
 
 /// Bilinear interpolation to the centres of half cells.
 pub fn interpolated(coarse: &Array2<f64>, fine: [usize; 2]) -> Array2<f64> {
-    let (nx, ny) = coarse.dim();
-    let places = |count: usize, cells: usize| -> Vec<(usize, usize, f64)> {
-        (0..count)
-            .map(|index| {
-                let at = (0.5 * (index as f64 + 0.5) - 0.5).clamp(0.0, cells as f64 - 1.0);
-                let low = at as usize;
-                (low, (low + 1).min(cells - 1), at - low as f64)
-            })
-            .collect()
-    };
-    let along_y = places(fine[1], ny);
-    let mut row = vec![0.0; ny];
+    let mut finer = Interpolation::new(coarse, fine);
     let mut result = Array2::zeros(fine);
-    for (mut line, (low, high, fraction)) in result.rows_mut().into_iter().zip(places(fine[0], nx)) {
-        for ((value, a), b) in row.iter_mut().zip(coarse.row(low)).zip(coarse.row(high)) {
-            *value = (1.0 - fraction) * a + fraction * b;
-        }
-        for (value, &(low, high, fraction)) in line.iter_mut().zip(&along_y) {
-            *value = (1.0 - fraction) * row[low] + fraction * row[high];
-        }
+    for (index, mut line) in result.rows_mut().into_iter().enumerate() {
+        finer.row(index, line.as_slice_mut().unwrap_or_default());
     }
     result
+}
+
+/// The same row by row.
+struct Interpolation<'a> {
+    coarse: &'a Array2<f64>,
+    /// Of every cell along each axis the coarse ones on both sides, and how far it lies from the first towards the second.
+    places: [Vec<(usize, usize, f64)>; 2],
+    /// Between two coarse rows.
+    between: Vec<f64>,
+}
+
+impl<'a> Interpolation<'a> {
+    fn new(coarse: &'a Array2<f64>, fine: [usize; 2]) -> Self {
+        let cells: [usize; 2] = coarse.dim().into();
+        let places = [0, 1].map(|axis| {
+            let place = |index: usize| {
+                let at = (0.5 * (index as f64 + 0.5) - 0.5).clamp(0.0, cells[axis] as f64 - 1.0);
+                let low = at as usize;
+                (low, (low + 1).min(cells[axis] - 1), at - low as f64)
+            };
+            (0..fine[axis]).map(place).collect()
+        });
+        Self { coarse, places, between: vec![0.0; cells[1]] }
+    }
+
+    fn row(&mut self, index: usize, line: &mut [f64]) {
+        let Self { coarse, places: [rows, columns], between } = self;
+        let (low, high, fraction) = rows[index];
+        for ((value, a), b) in between.iter_mut().zip(coarse.row(low)).zip(coarse.row(high)) {
+            *value = (1.0 - fraction) * a + fraction * b;
+        }
+        for (value, &(low, high, fraction)) in line.iter_mut().zip(&*columns) {
+            *value = (1.0 - fraction) * between[low] + fraction * between[high];
+        }
+    }
 }
 
 /// Whether a grid of a `shape` in front of its mirrors has one twice as coarse: with so many cells along each axis at the least, even in number

@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use crate::fields::largest;
+use crate::fields::{TangentialField, largest};
 use crate::model::{ContactState, Control, LoadStep, Rig};
 use crate::solver::increment_problem::centres;
 use crate::solver::laws::rigid_motions::CellPositions;
@@ -47,6 +47,9 @@ impl ContactSolver<'_> {
         if let Some(tractions) = as_last {
             return tractions;
         }
+        if self.coupling == Coupling::Frictionless && self.hardness.is_none() && start.is_some() {
+            return Tractions::default(); // it starts from that pressure alone
+        }
         let grown = start.filter(|_| self.coupling == Coupling::Coupled);
         let GridTractions { pressure, shear } = if self.rolled != [0.0; 2] && start.is_none() {
             GridTractions::of(state).carried(self.rolled)
@@ -54,7 +57,9 @@ impl ContactSolver<'_> {
             let grown = grown.and_then(|pressure| self.grown_to(pressure, state));
             grown.unwrap_or_else(|| self.extrapolated(state, load))
         };
-        Tractions { pressure: region.gather(&pressure), shear: region.gather_tangential(&shear) }
+        let rubs = self.coupling != Coupling::Frictionless;
+        let shear = if rubs { region.gather_tangential(&shear) } else { TangentialField::default() };
+        Tractions { pressure: region.gather(&pressure), shear }
     }
 
     /// A pressure from coarser grids: for a first contact, and where the normal load changes much.
