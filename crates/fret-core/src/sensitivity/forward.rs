@@ -108,14 +108,7 @@ pub(super) fn forward(
         let last = number.checked_sub(1).map(|last| &steps[last]);
         let next = replay.next((step, last), past.each_ref().map(Some), (&mut operators, None));
         let stage = next.load.stage;
-        let numbers: Vec<[f64; FREEDOMS]> = courses
-            .iter()
-            .map(|course| {
-                std::array::from_fn(|freedom| {
-                    f64::from(u8::from(course.parameter.is_control(stage, freedom)))
-                })
-            })
-            .collect();
+        let numbers: Vec<_> = courses.iter().map(|course| course.controls(stage)).collect();
         if let Some(solved) = next.solved {
             let step_and_load = (&step.record, &next.load);
             let increment = Increment::new(scene, step_and_load, &solved, past.each_ref());
@@ -192,6 +185,11 @@ pub(super) fn forward(
 }
 
 impl Course<'_> {
+    /// Derivatives of what a stage prescribes by the number.
+    fn controls(&self, stage: usize) -> [f64; FREEDOMS] {
+        std::array::from_fn(|freedom| f64::from(u8::from(self.parameter.is_control(stage, freedom))))
+    }
+
     /// What an increment depends on by the number.
     fn drive(&mut self, scene: &Scene<'_>, (solved, before): (&Solved, &Solved), load: &Load) -> Drive {
         let case = &scene.plan.case;
