@@ -5,7 +5,7 @@ use fret_core::run::{Silent, Simulation};
 use crate::sensitivities::{Written, found};
 
 /// A loop of a coated body whose friction evolves, in cycles and in a stage of its own.
-const EVOLVES: &str = r#"
+const EVOLVES: &str = r"
 [grid]
 cells = [24, 24]
 size = [3.0, 3.0]
@@ -34,7 +34,7 @@ increments = 2
 [[load]]
 shift = [0.0, 0.01]
 increments = 2
-"#;
+";
 const NUMBERS: [(&str, f64, &str); 7] = [
     ("E", 3.0, "lower.coatings[0].young"),
     ("Es", 1.0, "lower.substrate.young"),

@@ -218,15 +218,13 @@ mod tests {
     /// Against differences by the driver and by every number, between rows. 1e-8: of smooth functions in steps of 1e-6.
     #[test]
     fn a_coefficient_changes_by_every_number_of_its_law() {
-        let exponential =
-            |[first, last, scale, ..]: [f64; 6]| (EvolutionLaw::Exponential { last, scale }, first);
-        let table = |[x0, y0, x1, y1, x2, y2]: [f64; 6]| {
-            (EvolutionLaw::Table(vec![[x0, y0], [x1, y1], [x2, y2]]), y0)
-        };
+        /// The law of six numbers, and the first coefficient.
+        type Law = fn([f64; 6]) -> (EvolutionLaw, f64);
+        let exponential: Law = |[first, last, scale, ..]| (EvolutionLaw::Exponential { last, scale }, first);
+        let table: Law =
+            |[x0, y0, x1, y1, x2, y2]| (EvolutionLaw::Table(vec![[x0, y0], [x1, y1], [x2, y2]]), y0);
         let of_table = [0.0, 0.2, 10.0, 0.6, 30.0, 0.5];
-        let laws: [(&dyn Fn([f64; 6]) -> (EvolutionLaw, f64), [f64; 6]); 2] =
-            [(&exponential, [0.2, 0.8, 3.0, 0.0, 0.0, 0.0]), (&table, of_table)];
-        for (law, numbers) in laws {
+        for (law, numbers) in [(exponential, [0.2, 0.8, 3.0, 0.0, 0.0, 0.0]), (table, of_table)] {
             for x in [2.0, 20.0, 99.0] {
                 let at = |numbers, x: f64| {
                     let (law, first) = law(numbers);
