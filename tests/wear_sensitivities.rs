@@ -167,7 +167,7 @@ fn wear_through_layers_is_differentiated_by_coefficients_and_thicknesses() {
     let mut numbers =
         [&WORN_NUMBERS[..], &[("ks", 0.1, ""), ("ku", 0.05, "upper.wear_coefficient")]].concat();
     (numbers[0].1, numbers[5].2) = (FILM, "lower.coatings[0].wear_coefficient");
-    numbers[6].1 = 0.149; // no cell changes its state within a step
+    numbers[6].1 = 0.148; // differences to either side agree: no cell changes its state within a step
     numbers[9].2 = "lower.substrate.wear_coefficient";
     let columns = [
         "worn_volume",

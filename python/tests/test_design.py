@@ -409,10 +409,10 @@ def test_an_objective_of_nothing_is_refused() -> None:
         ({"case": {**ball(90e9), "grid": {"cells": [32, 32], "size": "auto"}}}, "moves the grid with the numbers"),
         (
             {
-                "case": {**COATED, "wear": {"coefficient": 1e-13, "rim": {"interior": 0.1, "width": 1e-5}}},
+                "case": {**COATED, "wear": {"coefficient": 1e-13, "debris": {"fraction": 0.5, "stiffness": 1e14}}},
                 "by": {THICKNESS: (1e-6, 8e-6)},
             },
-            r"\[wear\]",
+            r"wear\.debris\.stiffness",
         ),
     ],
 )

@@ -110,11 +110,11 @@ def test_what_has_no_first_order_is_refused(distributions: dict[str, Any], of: s
         fretting.first_order(HERTZ, distributions, of=of)
 
 
-def test_wear_by_its_distance_from_the_rim_has_no_first_order() -> None:
+def test_debris_that_gives_has_no_first_order() -> None:
     given = {"load[0].normal_force": fretting.Normal(10.0, 1.0)}
-    with pytest.raises(ValueError, match=r"\[wear\]"):
+    with pytest.raises(ValueError, match=r"wear\.debris\.stiffness"):
         fretting.first_order(
-            {**RUBBED, "wear": {"coefficient": 1e-13, "rim": {"interior": 0.1, "width": 1e-5}}},
+            {**RUBBED, "wear": {"coefficient": 1e-13, "debris": {"fraction": 0.5, "stiffness": 1e14}}},
             given,
             of="max_pressure",
         )

@@ -2,9 +2,9 @@
 
 use maud::{Markup, html};
 
+use super::drawn::{Drawing, figure_of};
 use super::frame::{Frame, room_for};
 use super::scale::{Axis, Label};
-use super::{Drawing, figure_of};
 
 /// Size of a chart: narrow, so that its words are still read on a telephone.
 const WIDTH: f64 = 400.0;

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::Drawing;
+use super::drawn::Drawing;
 use super::frame::{Frame, room_for};
 use super::raster::Raster;
 use super::scale::{Axis, Label};

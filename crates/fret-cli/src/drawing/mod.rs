@@ -1,9 +1,10 @@
 //! Pictures as SVG: line charts and false-colour maps. A picture stands in a page, whose style sheet colours it, or alone, with the
 //! same style sheet inside.
 //!
-//! From the ground: `scale` (axes), `raster` (images of fields), `frame` (the area between two axes), `chart` and `map`.
+//! From the ground: `drawn` (a picture, not yet put anywhere), `scale` (axes), `raster` (images of fields), `frame` (the area between two axes), `chart` and `map`.
 
 mod chart;
+mod drawn;
 mod frame;
 mod map;
 mod raster;
@@ -11,61 +12,9 @@ mod scale;
 mod section;
 
 pub use chart::{Chart, Curve, Stroke, joined};
+pub use drawn::{Drawing, STYLE, figure_of};
 pub use frame::{Frame, room_for};
 pub use map::{Map, SURFACE};
-use maud::{Markup, html};
 pub use raster::{Raster, pixels_for};
 pub use scale::{Axis, Label, ends, superscript};
 pub use section::Section;
-
-/// The style of pictures: the palette by day, and what is drawn in which colour.
-pub const STYLE: &str = concat!(include_str!("palette.css"), include_str!("drawing.css"));
-
-/// A picture, not yet put anywhere.
-#[derive(Debug)]
-pub struct Drawing {
-    /// What it shows, for those who cannot see it.
-    pub what: String,
-    /// Width and height in its own units.
-    pub size: [f64; 2],
-    /// What a pointer over it reads: the places and the ranges of its axes.
-    pub reading: Option<String>,
-    /// Its elements.
-    pub content: Markup,
-}
-
-impl Drawing {
-    /// The picture as part of a page that has [`STYLE`].
-    pub fn in_page(&self) -> Markup {
-        let [width, height] = self.size;
-        html! {
-            svg viewBox=(format!("0 0 {width} {height:.0}")) role="img" aria-label=(self.what) data-axes=[&self.reading] {
-                (self.content)
-            }
-        }
-    }
-
-    /// The picture as a file of its own, under a heading.
-    pub fn alone(&self, heading: &[&str]) -> String {
-        let [width, height] = self.size;
-        let above = 12.0 + 18.0 * heading.len() as f64;
-        let all = height + above;
-        let svg = html! {
-            svg xmlns="http://www.w3.org/2000/svg" viewBox=(format!("0 0 {width} {all:.0}"))
-                width=(format!("{:.0}", 1.6 * width)) height=(format!("{:.0}", 1.6 * all)) role="img" aria-label=(self.what) {
-                style { (maud::PreEscaped(STYLE)) }
-                rect class="paper" width="100%" height="100%" {}
-                @for (number, line) in heading.iter().enumerate() {
-                    text class=(if number == 0 { "title" } else { "axis" }) x="12" y=(22 + 18 * number) { (line) }
-                }
-                g transform=(format!("translate(0 {above})")) { (self.content) }
-            }
-        };
-        svg.into_string() + "\n"
-    }
-}
-
-/// A figure with its caption.
-pub fn figure_of(drawing: &Markup, caption: &str) -> Markup {
-    html! { figure { (drawing) figcaption { (caption) } } }
-}

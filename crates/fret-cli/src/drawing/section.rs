@@ -2,7 +2,7 @@
 
 use fret_core::units::Units;
 
-use crate::drawing::Drawing;
+use crate::drawing::drawn::Drawing;
 use crate::drawing::map::Map;
 use crate::drawing::raster::Raster;
 use crate::drawing::scale::{Label, ends};
