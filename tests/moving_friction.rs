@@ -100,6 +100,49 @@ fn places_of_the_body_that_friction_belongs_to_remember_what_passed_over_them() 
     }
 }
 
+/// The same by slip distance: a place of the flat slips as long as the contact is over it, one of the cylinder all the way. Cells are in contact or
+/// not, so that either edge is known to half a cell, of 32 in contact.
+#[test]
+fn places_remember_the_way_that_slid_over_them() {
+    let elastic = "substrate = { young = 0.91, poisson = 0.3 }";
+    // doubled where all of the contact has passed
+    let law = format!("table = [[0, {FRICTION}], [{:e}, {:e}]]", 8.0 * HALF_WIDTH, 5.0 * FRICTION);
+    let friction = |whose: &str| {
+        format!("coefficient = {FRICTION}\n{whose}\nevolution = {{ by = \"slip_distance\", {law} }}")
+    };
+    let kept = "[output]\nfields = [\"friction\"]\n";
+    let passed = |x: f64| {
+        let (first, last) = ((x - HALF_WIDTH).max(-REACH), (x + HALF_WIDTH).min(REACH));
+        (last - first).max(0.0) / (2.0 * HALF_WIDTH)
+    };
+    let stayed = |x: f64| if x.abs() < HALF_WIDTH { REACH / HALF_WIDTH } else { 0.0 };
+    let below = [elastic, RIGID];
+    let above = [RIGID, elastic];
+    let cases = [
+        (
+            "flat below",
+            slid(below, "upper.profile", &friction(""), (REACH, kept)),
+            &passed as &dyn Fn(f64) -> f64,
+        ),
+        ("flat above", slid(above, "lower.profile", &friction(UPPER), (-REACH, kept)), &passed),
+        ("cylinder below", slid(above, "lower.profile", &friction(""), (-REACH, kept)), &stayed),
+        ("cylinder above", slid(below, "upper.profile", &friction(UPPER), (REACH, kept)), &stayed),
+    ];
+    for (name, text, expected) in cases {
+        let history = solved(&text);
+        let cell = 3.2 / CELLS as f64;
+        let inside = |x: f64| (x.abs() - HALF_WIDTH).abs() > cell;
+        let largest = rise(&history)
+            .into_iter()
+            .filter(|[x, _]| name.starts_with("flat") || inside(*x))
+            .fold(0.0_f64, |largest, [x, found]| largest.max((found - expected(x)).abs()));
+        println!("slip distance, {name}: off by {largest:.1e}");
+        // Half a cell at each of two edges; counted whole in the increments in which it comes and goes, a place would have another cell. What the
+        // contact gives is a thousandth.
+        assert!(largest < cell / (2.0 * HALF_WIDTH) + 1e-3, "{name}: {largest:e}");
+    }
+}
+
 /// A flat whose coefficient rises evenly along x slides over a cylinder, and both wear by their energy. A place of the flat loses its own coefficient
 /// times the pressure that passes over it, a place of the cylinder its pressure times the coefficients that pass over it, whose mean is that over it
 /// half-way. The friction law is that at either end of an increment: of the last alone would make it half a cell of the flat, 0.6 %.
@@ -163,30 +206,31 @@ fn friction_evolves_alike_with_the_bodies_exchanged() {
     let elastic = "substrate = { young = 1.0, poisson = 0.0 }";
     for (coefficient, bounds) in [(0.3, [5e-4, 2e-3]), (3e-3, [5e-6, 2e-5])] {
         // a fourth of what a cycle does in the middle
-        let scale = 4.6e-3 * coefficient;
-        let law = format!("by = \"energy\", last = {:e}, scale = {scale:e}", 2.0 * coefficient);
-        let friction =
-            |whose: &str| format!("coefficient = {coefficient:e}\n{whose}\nevolution = {{ {law} }}");
-        let below = fretted([elastic, RIGID], "upper.profile", &friction(""), (SIDE, 1.0));
-        let above = fretted([RIGID, elastic], "lower.profile", &friction(UPPER), (SIDE, -1.0));
-        let mut cycles = 0.0_f64;
-        for (one, other) in below.cycles.iter().zip(&above.cycles) {
-            let pairs = [
-                (one.friction_coefficient, other.friction_coefficient),
-                (one.dissipated_energy, other.dissipated_energy),
-            ];
-            for (a, b) in pairs {
-                cycles = cycles.max((a / b - 1.0).abs());
+        for (driver, scale) in [("energy", 4.6e-3 * coefficient), ("slip_distance", 0.8)] {
+            let law = format!("by = \"{driver}\", last = {:e}, scale = {scale:e}", 2.0 * coefficient);
+            let friction =
+                |whose: &str| format!("coefficient = {coefficient:e}\n{whose}\nevolution = {{ {law} }}");
+            let below = fretted([elastic, RIGID], "upper.profile", &friction(""), (SIDE, 1.0));
+            let above = fretted([RIGID, elastic], "lower.profile", &friction(UPPER), (SIDE, -1.0));
+            let mut cycles = 0.0_f64;
+            for (one, other) in below.cycles.iter().zip(&above.cycles) {
+                let pairs = [
+                    (one.friction_coefficient, other.friction_coefficient),
+                    (one.dissipated_energy, other.dissipated_energy),
+                ];
+                for (a, b) in pairs {
+                    cycles = cycles.max((a / b - 1.0).abs());
+                }
             }
+            let [one, other] =
+                [&below, &above].map(|history| history.fields.last().unwrap().friction.clone().unwrap());
+            let rise = largest(&(&one / coefficient - 1.0));
+            let map = largest(&(&one - &other)) / coefficient;
+            println!(
+                "exchanged, mu = {coefficient}, by {driver}: cycles off by {cycles:.1e}, the map by {map:.1e} of {rise:.2}"
+            );
+            assert!(rise > 0.5 && cycles < bounds[0] && map < bounds[1], "{cycles:e} {map:e} {rise}");
         }
-        let [one, other] =
-            [&below, &above].map(|history| history.fields.last().unwrap().friction.clone().unwrap());
-        let rise = largest(&(&one / coefficient - 1.0));
-        let map = largest(&(&one - &other)) / coefficient;
-        println!(
-            "exchanged, mu = {coefficient}: cycles off by {cycles:.1e}, the map by {map:.1e} of {rise:.2}"
-        );
-        assert!(rise > 0.5 && cycles < bounds[0] && map < bounds[1], "{cycles:e} {map:e} {rise}");
     }
 }
 

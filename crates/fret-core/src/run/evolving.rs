@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::slip_increment::{add_slip, slip_by_ends};
+use super::slip_increment::SlipIncrement;
 use super::upper_frame::UpperFrame;
-use crate::model::{AccumulatedSlip, ContactState, CoulombFriction, FrictionEvolution, Integration};
+use crate::model::{AccumulatedSlip, CoulombFriction, FrictionEvolution};
 use crate::solver::SolveError;
 
 /// What a run knows of the cycle at work and of the cycle jump before it.
@@ -84,21 +84,16 @@ impl Evolving {
         &self.collected
     }
 
-    /// Adds the slip between two states that follow each other, each under the friction law that lay over the grid in it.
+    /// Adds what slips in an increment.
     ///
     /// # Errors
     /// When the slip of an upper body leaves the grid, on which that lay without a shift.
-    pub fn add(
-        &mut self,
-        states: [&ContactState; 2],
-        laws: [&CoulombFriction; 2],
-        integration: Integration,
-    ) -> Result<(), SolveError> {
+    pub fn add(&mut self, increment: SlipIncrement<'_>) -> Result<(), SolveError> {
         let Some(frame) = self.frame else {
-            add_slip(states, integration, laws, &mut self.collected.of_cycle);
+            increment.add_slip(&mut self.collected.of_cycle);
             return Ok(());
         };
-        for (part, state) in slip_by_ends(states, integration, laws).iter().zip(states) {
+        for (part, state) in increment.slip_by_ends().iter().zip(increment.states) {
             for (over_grid, to) in part.fields().into_iter().zip(self.collected.of_cycle.fields_mut()) {
                 frame.collect(over_grid, state, to)?;
             }

@@ -4,6 +4,7 @@
 use ndarray::Zip;
 
 use super::moving::Stepper;
+use super::slip_increment::SlipIncrement;
 use super::surfaces::Surfaces;
 use crate::history::Work;
 use crate::model::{ContactState, Integration, LoadStep};
@@ -54,7 +55,12 @@ fn halved(
 ) -> Result<(Increment, usize), SolveError> {
     match solver.step(span.state, span.to, watch) {
         Ok(end) => {
-            surfaces.add([span.state, &end.state], solver.solver.laws())?;
+            surfaces.add(SlipIncrement {
+                states: [span.state, &end.state],
+                laws: solver.solver.laws(),
+                integration: surfaces.integration,
+                travels: end.travelled,
+            })?;
             Ok((end, 1))
         }
         Err(error) if error.is_of_long_increments() && halvings > 0 && span.from != span.to => {

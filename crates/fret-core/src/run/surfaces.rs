@@ -5,6 +5,7 @@ use ndarray::Array2;
 
 use super::debris::{CollectedDebris, Debris, OneCycle};
 use super::evolving::{CollectedSlip, Evolved, Evolving};
+use super::slip_increment::SlipIncrement;
 use super::upper_frame::UpperFrame;
 use super::wear::{self, Collected, TooFast, Wearing};
 use crate::model::{CellValues, ContactState, CoulombFriction, Integration};
@@ -88,22 +89,22 @@ impl Block {
 }
 
 impl Surfaces {
-    /// Adds the slip between two states that follow each other, each under the friction law that lay over the grid in it.
+    /// Adds what slips in an increment.
     ///
     /// # Errors
     /// When wear or slip of the upper body leaves the grid.
-    pub fn add(&mut self, states: [&ContactState; 2], laws: [&CoulombFriction; 2]) -> Result<(), SolveError> {
+    pub fn add(&mut self, increment: SlipIncrement<'_>) -> Result<(), SolveError> {
         if let Some((upper, frame)) = &mut self.upper {
-            let worn = upper.add_in_frame(states, laws, (self.integration, *frame))?;
+            let worn = upper.add_in_frame(increment, *frame)?;
             if let Some(debris) = &mut self.debris {
                 debris.add_above(worn.each_ref());
             }
         }
         if let Some(wearing) = &mut self.wearing {
-            wearing.add(states, laws, self.integration);
+            wearing.add(increment);
         }
         if let Some(evolving) = &mut self.evolving {
-            evolving.add(states, laws, self.integration)?;
+            evolving.add(increment)?;
         }
         Ok(())
     }

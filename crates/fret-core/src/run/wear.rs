@@ -4,12 +4,12 @@ use ndarray::{Array2, Zip};
 use serde::{Deserialize, Serialize};
 
 use super::rim::OpenRim;
-use super::slip_increment::{add_path, add_wear, path, wear_by_ends};
+use super::slip_increment::SlipIncrement;
 use super::stiffest_wave::StiffestWave;
 use super::upper_frame::UpperFrame;
 use crate::fields::stored;
 use crate::history::DebrisRecord;
-use crate::model::{ContactState, CoulombFriction, Integration, WearLaw, WearLayers, WearRule};
+use crate::model::{ContactState, CoulombFriction, WearLaw, WearLayers, WearRule};
 use crate::plan::Plan;
 use crate::solver::SolveError;
 
@@ -184,50 +184,44 @@ impl Wearing {
         gap
     }
 
-    /// Adds the wear between two states that follow each other, each under the friction law that lay over the grid in it.
-    pub fn add(&mut self, states: [&ContactState; 2], laws: [&CoulombFriction; 2], integration: Integration) {
+    /// Adds the wear of an increment.
+    pub fn add(&mut self, increment: SlipIncrement<'_>) {
         if self.rim.is_some() {
-            for worn in self.by_ends(states, laws, integration) {
+            for worn in self.by_ends(increment) {
                 self.collected.wear += &worn;
             }
         } else {
-            add_wear(states, integration, laws, &self.rule, &mut self.collected.wear);
+            increment.add_wear(&self.rule, &mut self.collected.wear);
         }
-        add_path(states, integration, &mut self.collected.path);
+        self.collected.path += &increment.path();
     }
 
-    /// The wear between two states that follow each other, by what each of them has a part in.
-    fn by_ends(
-        &self,
-        states: [&ContactState; 2],
-        laws: [&CoulombFriction; 2],
-        integration: Integration,
-    ) -> [Array2<f64>; 2] {
-        let mut worn = wear_by_ends(states, integration, laws, &self.rule);
+    /// The wear of an increment, by what each of its ends has a part in.
+    fn by_ends(&self, increment: SlipIncrement<'_>) -> [Array2<f64>; 2] {
+        let mut worn = increment.wear_by_ends(&self.rule);
         if let Some(rim) = &self.rim {
-            for (worn, state) in worn.iter_mut().zip(states) {
+            for (worn, state) in worn.iter_mut().zip(increment.states) {
                 *worn *= &rim.factors(&state.pressure);
             }
         }
         worn
     }
 
-    /// Adds the wear of the upper body between two states that follow each other, in its own frame: what each pressure has a part in lies where
-    /// the body was under it. Returns both parts over the grid.
+    /// Adds the wear of the upper body in an increment, in its own frame: what each pressure has a part in lies where the body was under it.
+    /// Returns both parts over the grid.
     ///
     /// # Errors
     /// When it leaves the grid, on which the body lay without a shift.
     pub fn add_in_frame(
         &mut self,
-        states: [&ContactState; 2],
-        laws: [&CoulombFriction; 2],
-        (integration, frame): (Integration, UpperFrame),
+        increment: SlipIncrement<'_>,
+        frame: UpperFrame,
     ) -> Result<[Array2<f64>; 2], SolveError> {
-        let worn = self.by_ends(states, laws, integration);
-        for (worn, state) in worn.iter().zip(states) {
+        let worn = self.by_ends(increment);
+        for (worn, state) in worn.iter().zip(increment.states) {
             frame.collect(worn, state, &mut self.collected.wear)?;
         }
-        self.collected.path += &frame.brought_back(&path(states, integration), states[1]);
+        self.collected.path += &frame.brought_back(&increment.path(), increment.states[1]);
         Ok(worn)
     }
 

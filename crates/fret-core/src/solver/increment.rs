@@ -82,6 +82,7 @@ impl ContactSolver<'_> {
                 stick_area,
                 gap,
                 friction_work,
+                travelled: self.travel > 0,
                 work: self.work,
             };
             self.remember((state, load), (region, pace), solved, &increment);

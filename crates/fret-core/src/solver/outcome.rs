@@ -155,6 +155,8 @@ pub struct Increment {
     /// What friction has dissipated in the increment by area [pressure x length], on the whole of the solver's grid; `None` where it is not asked
     /// for.
     pub friction_work: Option<Array2<f64>>,
+    /// Whether the contact has travelled over both surfaces in it.
+    pub travelled: bool,
     /// Work spent.
     pub work: Work,
 }
