@@ -7,6 +7,7 @@ use fret_core::case::{Attachments, Case};
 use fret_core::history::{History, Start, StepRecord};
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::run::{Silent, Simulation};
+use fret_core::study::{Variation, VariationError};
 use fret_validation::{off_first_law, run, solved, solved_with};
 use ndarray::Array2;
 
@@ -222,6 +223,88 @@ fn moments_turn_a_contact_that_rolls_alike_in_both_frames() {
             assert!(off_first_law(history, 0.0) < 1e-9, "{:e}", off_first_law(history, 0.0));
         }
     }
+}
+
+/// A ball that is pulled along its way does not turn, by symmetry: free to do so, it is the one whose twist is held.
+#[test]
+fn a_ball_that_is_free_to_turn_and_has_no_reason_to_does_not() {
+    let uniform = "[friction]\ncoefficient = 0.3\n";
+    for grid in [(LARGE, "frame = \"bodies\""), (SMALL, "frame = \"contact\"")] {
+        let [free, held] = ["twist_moment = 0.0", "twist = 0.0"].map(|motion| {
+            let loads = format!("[[load]]\nroll = [0.8, 0.0]\n{motion}\nincrements = 8\n");
+            let text = ball(grid, uniform, &loads).replace("[8e-4, 3e-4]", "[8e-4, 0.0]");
+            solved(&text).steps.last().unwrap().clone()
+        });
+        println!("free to turn, {}: twist {:.1e} rad, shift {:?}", grid.1, free.twist, free.shift);
+        let off = (free.shift[0] / held.shift[0] - 1.0).abs();
+        // What the solver leaves of a residual of 1e-10, over the radius of contact.
+        assert!(free.twist.abs() < 1e-9 * free.shift[0].abs() && off < 1e-8, "{:e} {off:e}", free.twist);
+    }
+}
+
+/// The places of a body that has rolled off with its grid: what is fixed to them is refused, and what lies beyond their maps is that of before.
+#[test]
+fn a_start_that_has_rolled_is_judged_as_a_contact_that_rolls() {
+    let rolled = |kinematics: &str, surface: &str| {
+        let text = ball((SMALL, kinematics), surface, "[[load]]\nroll = [0.4, 0.0]\nincrements = 4\n");
+        Start::of(&solved_with(&text, &[heights()]), 8).unwrap()
+    };
+    let heights_and_friction = "[profile.heights]\nvalues = { array = 0 }\n[friction]\ncoefficient = 0.3\n";
+    let uniform = "[friction]\ncoefficient = 0.3\n";
+    let mirrors = "frame = \"contact\"\nbeyond_maps = \"mirrors\"";
+    let arrays = vec![heights()];
+    let from = |start: &Start, (kinematics, surface): (&str, &str), more: &str| {
+        let text = ball((SMALL, kinematics), surface, more);
+        let (first, rest) = text.split_once("[[load]]\n").unwrap();
+        let rest = rest.splitn(3, "[[load]]\n").nth(2).unwrap();
+        let attachments =
+            Attachments { start: Some(start.solved.loads), arrays: &arrays, ..Attachments::none() };
+        let case = Case::from_toml_with(&format!("{first}[[load]]\n{rest}"), "case.toml", attachments)
+            .map_err(|error| error.to_string())?;
+        Plan::starting_from(Some(Arc::new(start.clone())), case, LeaveOut::ALL)
+            .map(|_| ())
+            .map_err(|error| error.to_string())
+    };
+    let pressed = "[[load]]\nnormal_force = 1.3e-2\nincrements = 1\n";
+    let fretted = "[[load]]\nshift = [1e-3, 0.0]\ncycles = 2\nincrements = 8\n";
+    let along = rolled(mirrors, heights_and_friction);
+    let fixed = rolled("frame = \"bodies\"", uniform);
+    let wear = format!("{fretted}[wear]\ncoefficient = 1e-3\n");
+    let tilted = "[[load]]\ntilt_moment = [1e-5, 0.0]\nincrements = 1\n";
+    let edge = "frame = \"contact\"\nbeyond_maps = \"edge\"";
+    for (start, here, more, why) in [
+        (&along, (mirrors, heights_and_friction), wear.as_str(), "wear with kinematics.frame = \"contact\""),
+        (&along, ("frame = \"contact\"", heights_and_friction), pressed, "rolls off it"),
+        (&along, (edge, heights_and_friction), pressed, "kinematics.beyond_maps"),
+        (&fixed, ("frame = \"bodies\"", uniform), tilted, "a tilt is about the middle of the grid"),
+    ] {
+        let refused = from(start, here, more).unwrap_err();
+        assert!(refused.contains(why), "{more}: {refused}");
+    }
+    from(&along, (mirrors, heights_and_friction), pressed).unwrap();
+    from(&fixed, ("frame = \"bodies\"", uniform), pressed).unwrap();
+}
+
+/// A grid that goes along by whole cells has no answer where an increment is a part of one: neither a study nor an error bar takes such a grid.
+#[test]
+fn grids_on_which_increments_are_parts_of_cells_are_no_levels() {
+    let uniform = "[friction]\ncoefficient = 0.3\n";
+    let plan = |increments: usize| {
+        let loads = format!("[[load]]\nroll = [1.2, 0.0]\nincrements = {increments}\n");
+        let text = ball((SMALL, "frame = \"contact\""), uniform, &loads);
+        Plan::new(Case::from_toml(&text, "case.toml").unwrap()).unwrap()
+    };
+    let coarser = |plan: &Plan, increments: usize| {
+        let own = Variation::of(plan);
+        let [first, second, _] = own.increments[..] else { panic!("three stages") };
+        Variation { cells: [14, 14], increments: vec![first, second, increments], ..own }.planned(plan)
+    };
+    // Twelve cells of 0.1 or six of 0.2.
+    let cell_by_cell = plan(12);
+    assert!(
+        matches!(coarser(&cell_by_cell, 12), Err(VariationError::PartsOfCells(why)) if why.contains("0.5000 cells"))
+    );
+    assert_eq!(coarser(&cell_by_cell, 6).unwrap().case.increments(), 3 + 2 + 6);
 }
 
 /// The steady state of a free ball has no moment, and is what marching comes to.

@@ -77,8 +77,8 @@ def gradient(
     CaseError
         When the case is refused.
     ValueError
-        When a result or a number is not one of the case, or the case is of a kind that is not covered: with wear
-        by more than one coefficient, evolving friction, surfaces that move or roll, or increments in parts.
+        When a result or a number is not one of the case, or the case is of a kind that is not covered: with debris
+        that gives, with thinning, hardness, surfaces that move or roll, or increments in parts.
     RunError
         When the run fails, or the linear equations of an increment are not solved.
     """

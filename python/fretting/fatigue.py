@@ -56,7 +56,7 @@ def fatigue(
 ) -> "xarray.Dataset":
     """Return fatigue parameters: see :meth:`fretting.History.fatigue`."""
     module = _dataset.module("fatigue")
-    chosen, arguments = _cycle(history, cycle, body)
+    chosen, arguments = _cycle_of_places(history, cycle, body)
     answer = _core.fatigue(*arguments, points(depths), _constants(constants), threads)
     variables = {
         name: _dataset.on_cells(history, values, PARAMETERS[name], *("depth",) * (values.ndim - 2))
@@ -100,7 +100,7 @@ def crack(
 ) -> "xarray.Dataset":
     """Return the course of a short crack: see :meth:`fretting.History.crack`."""
     module = _dataset.module("crack")
-    chosen, arguments = _cycle(history, cycle, body)
+    chosen, arguments = _cycle_of_places(history, cycle, body)
     told = json.loads(_core.crack(*arguments, _constants(constants), threads))
     attributes: dict[str, Any] = {"body": body, "increments": chosen}
     dataset: xarray.Dataset
@@ -184,6 +184,18 @@ def _cycle(history: "History", cycle: int, body: Literal["lower", "upper"]) -> t
         )
     increments = [(*_fields(history, number), bulk_stress(history, number, body)) for number in chosen]
     return chosen, ((json.dumps(history.plan), body == "upper"), increments)
+
+
+def _cycle_of_places(
+    history: "History", cycle: int, body: Literal["lower", "upper"]
+) -> tuple[list[int], tuple[Any, Any]]:
+    """Return the same of a cycle in which a cell is one place of the bodies."""
+    if _dataset.rolls(history, cycle, "contact"):
+        raise ValueError(
+            'the contact rolls with kinematics.frame = "contact": the places of the bodies travel through the grid '
+            '(frame = "bodies", on a grid that holds all of the way, keeps them)'
+        )
+    return _cycle(history, cycle, body)
 
 
 _Pair = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]

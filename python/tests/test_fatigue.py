@@ -266,3 +266,28 @@ def test_a_graded_coating_and_a_cut_one_are_one_film() -> None:
         # the substrate below is softer, however thin the layer of the film's own material is
         assert np.isnan(float(cut["channelling"]))
         assert np.isnan(float(cut["phase"]))
+
+
+def test_places_that_travel_through_the_grid_have_no_fatigue() -> None:
+    """In the frame of the contact a cell is another place of the bodies after each increment of a roll."""
+    histories = {}
+    for frame in ("bodies", "contact"):
+        case: dict[str, Any] = {
+            "grid": {"cells": 128, "size": 3.2},
+            "upper": {"rigid": True},
+            "lower": {"substrate": {"young": 1.0, "poisson": 0.3, "thermal_conductivity": 1.0}},
+            "profile": {"cylinder": {"radius": 100.0, "axis": "y"}},
+            "friction": {"coefficient": 0.3},
+            "kinematics": {"frame": frame},
+            "load": [{"normal_force": 2e-3, "increments": 2}, {"roll": 0.2, "cycles": 1, "increments": 16}],
+            "output": {"every": 1},
+        }
+        histories[frame] = fretting.run(case)
+    found = histories["bodies"].fatigue([0.05])
+    assert float(found.ruiz_f1.max()) > 0.0
+    for attempt in (histories["contact"].fatigue, lambda depths: histories["contact"].crack(constants=CRACK)):
+        with pytest.raises(ValueError, match='frame = "bodies"'):
+            attempt([0.05])
+    for history in histories.values():
+        with pytest.raises(ValueError, match="the contact rolls"):
+            history.temperature(frequency=10.0)

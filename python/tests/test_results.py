@@ -85,6 +85,10 @@ def test_a_stopped_run_continues_and_a_solved_one_is_left_alone(case: dict[str, 
     before = (tmp_path / "run" / "run.json").read_bytes()
     fretting.run(case, folder=tmp_path / "run", resume=True)
     assert (tmp_path / "run" / "run.json").read_bytes() == before
+    # nor does what was solved until a run was stopped take the place of all of it
+    with pytest.raises(ValueError, match="replace=True"):
+        stopped.value.history.save(tmp_path / "run")  # type: ignore[attr-defined]
+    assert (tmp_path / "run" / "run.json").read_bytes() == before
 
 
 def test_results_of_another_case_are_kept(case: dict[str, Any], tmp_path: Path) -> None:

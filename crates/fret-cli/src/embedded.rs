@@ -23,7 +23,7 @@ pub use crate::sweep::kinds::kind_of as kind_of_key;
 use crate::terminal;
 use crate::threads;
 use fret_results::{
-    CaseFile, ERROR_BARS, Ending, Origin, ResultFolder, RunRecord, Standing, Tally, Wish, resolved_path,
+    CaseFile, ERROR_BARS, Ending, Origin, ResultFolder, RunRecord, Standing, Tally, Wish, read_record, resolved_path,
     write_whole,
 };
 pub use fret_results::{ReadInstrument, read_instruments_by};
@@ -104,6 +104,15 @@ pub fn save(solved: Solved<'_>, case_file: &CaseFile, folder: &Path, wish: Wish)
     let Solved { plan, history, quantities, early, error_bars } = solved;
     let folder = &resolved_path(folder);
     match ResultFolder::standing(folder, case_file, plan, wish)? {
+        Standing::SameCase
+            if early.is_some() && read_record(folder).is_ok_and(|record| record.is_solved()) =>
+        {
+            let what = format!(
+                "{}: holds this history to its end, and the one to be saved ended early",
+                folder.display()
+            );
+            return Err(Failure::call(what, "choose another folder, or replace it by that with --force"));
+        }
         Standing::Free | Standing::SameCase | Standing::Forced => {}
         Standing::Unfinished | Standing::Solved(_) => {
             let what = format!("{}: holds results already", folder.display());

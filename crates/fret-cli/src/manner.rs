@@ -1,5 +1,6 @@
 //! What every command takes that writes or prints results: where to, and how much is told.
 
+use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -15,7 +16,7 @@ use crate::failure::{Failure, Unwritten};
 use crate::figures::{duration, figure};
 use crate::interrupt::go_on;
 use crate::terminal::{self, Answer};
-use fret_results::{folder_below, folder_for_answers, write_whole};
+use fret_results::{folder_below, folder_for_answers, is_of_a_run, write_whole};
 
 /// Where an answer is written, and how much is told. What `out` is, a file or a folder, and where it is without, a command says in its own words.
 #[derive(Debug, Clone, Default, Args)]
@@ -90,20 +91,35 @@ impl Manner {
     }
 }
 
-/// Refuses a file for an answer that is standard output, a folder, or an existing file of another kind, told by its extension.
+/// Whether a file is an answer of this program that another one may replace: of the kinds of `extensions`, and, where that is JSON, with a status;
+/// nothing that a run has written.
+fn is_earlier_answer(path: &Path, extensions: &[&str]) -> bool {
+    let kind = extensions
+        .iter()
+        .find(|ours| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(ours)));
+    match kind {
+        Some(&"json") => {
+            let read =
+                fs::read(path).ok().and_then(|text| serde_json::from_slice::<serde_json::Value>(&text).ok());
+            read.is_some_and(|answer| answer.get("status").is_some_and(serde_json::Value::is_string))
+                && !is_of_a_run(path)
+        }
+        Some(_) => true,
+        None => false,
+    }
+}
+
+/// Refuses a file for an answer that is standard output, a folder, or an existing file that is no earlier answer.
 ///
 /// # Errors
 /// When it is one of them.
 pub fn refuse_other_file(path: &Path, extensions: &[&str]) -> Result<(), Failure> {
-    let is_ours = path
-        .extension()
-        .is_some_and(|extension| extensions.iter().any(|ours| extension.eq_ignore_ascii_case(ours)));
     let found = if path == Path::new("-") {
         "standard output, where the answer is written to a file".to_owned()
     } else if path.is_dir() {
         "a folder, where the answer is one file".to_owned()
-    } else if path.exists() && !is_ours {
-        format!("a file that is there already and is no .{} file", extensions[0])
+    } else if path.exists() && !is_earlier_answer(path, extensions) {
+        format!("a file that is there already and is no .{} file of such an answer", extensions[0])
     } else {
         return Ok(());
     };
@@ -118,7 +134,8 @@ pub fn refuse_other_file(path: &Path, extensions: &[&str]) -> Result<(), Failure
 pub fn place_of_answer(
     manner: &Manner,
     results: &Path,
-    (name, mark, what): (&str, &str, &str),
+    [name, mark]: [&str; 2],
+    what: &str,
 ) -> Result<PathBuf, Failure> {
     match &manner.out {
         Some(folder) => Ok(folder_for_answers(folder, &[mark], what)?),

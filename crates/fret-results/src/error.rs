@@ -53,7 +53,13 @@ impl std::fmt::Display for Unwritten {
 }
 
 impl ResultsError {
-    /// Something that is no result of a run, or not a whole one.
+    /// Results that are not what the run wrote.
+    pub fn damaged(path: &Path, what: &str) -> Self {
+        let help = "run the case again: nothing is read from a damaged folder";
+        Self::Refused(format!("{}: {what}", path.display()), help.to_owned())
+    }
+
+    /// Something that is no result of a run.
     pub fn unusable(path: &Path, what: &str) -> Self {
         let help = "name the folder that `fret run CASE --out DIR` wrote";
         Self::Refused(format!("{}: {what}", path.display()), help.to_owned())

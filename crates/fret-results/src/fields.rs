@@ -65,7 +65,7 @@ impl Fields {
             Dimension::Line => vec![0.0],
         };
         if x.iter().chain(&y).any(|centre| !centre.is_finite()) {
-            return Err(ResultsError::unusable(path, "holds centres of cells that are no numbers"));
+            return Err(ResultsError::damaged(path, "holds centres of cells that are no numbers"));
         }
         let numbers = store.axis("increment", None)?;
         let numbers: Vec<i64> =
@@ -74,7 +74,7 @@ impl Fields {
             || numbers.iter().zip(numbers.iter().skip(1)).any(|(one, next)| one >= next)
             || store.is_solved && numbers.last().is_some_and(|last| *last >= rows as i64)
         {
-            return Err(ResultsError::unusable(
+            return Err(ResultsError::damaged(
                 &path.join("increment"),
                 "does not hold numbers of increments",
             ));
@@ -118,17 +118,17 @@ impl Fields {
     pub fn field(&self, name: &str, position: usize) -> Result<Array2<f64>, ResultsError> {
         let file = self.path.join(chunk(&self.grid, name, position));
         let bytes = fs::read(&file)
-            .map_err(|error| ResultsError::unusable(&file, &format!("cannot be read: {error}")))?;
+            .map_err(|error| ResultsError::damaged(&file, &format!("cannot be read: {error}")))?;
         let bytes = checked(bytes, Some(bytes_of(&self.grid, name)), self.is_checked)
-            .map_err(|what| ResultsError::unusable(&file, &what))?;
+            .map_err(|what| ResultsError::damaged(&file, &what))?;
         let values: Vec<f64> =
             if is_zone(name) { bytes.into_iter().map(f64::from).collect() } else { floats(&bytes) };
         let none = |value: &f64| !value.is_finite() || is_zone(name) && *value > 2.0;
         if let Some(place) = values.iter().position(none) {
-            return Err(ResultsError::unusable(&file, &format!("value {place} is none of a field")));
+            return Err(ResultsError::damaged(&file, &format!("value {place} is none of a field")));
         }
         Array2::from_shape_vec(self.cells(), values)
-            .map_err(|error| ResultsError::unusable(&file, &error.to_string()))
+            .map_err(|error| ResultsError::damaged(&file, &error.to_string()))
     }
 
     /// Reads every field.
@@ -153,9 +153,9 @@ impl Store<'_> {
     fn axis(&self, name: &str, length: Option<usize>) -> Result<Vec<u8>, ResultsError> {
         let file = self.path.join(name).join("c/0");
         let bytes = fs::read(&file)
-            .map_err(|error| ResultsError::unusable(&file, &format!("cannot be read: {error}")))?;
+            .map_err(|error| ResultsError::damaged(&file, &format!("cannot be read: {error}")))?;
         if bytes.is_empty() && length.is_some() {
-            return Err(ResultsError::unusable(&file, "holds no grid"));
+            return Err(ResultsError::damaged(&file, "holds no grid"));
         }
         let written = |length: usize| {
             move |is_checked: bool, words: &Value| axis_metadata(name, length, is_checked, words)
@@ -164,7 +164,7 @@ impl Store<'_> {
         let length = length.or_else(|| length_of(&metadata)).unwrap_or_default();
         let is_checked = is_checked(&metadata, written(length)).ok_or_else(|| self.foreign(name))?;
         let expected = if self.is_solved || name != "increment" { Some(8 * length) } else { None };
-        checked(bytes, expected, is_checked).map_err(|what| ResultsError::unusable(&file, &what))
+        checked(bytes, expected, is_checked).map_err(|what| ResultsError::damaged(&file, &what))
     }
 
     /// Whether the chunks of a field over so many increments have checksums.
@@ -189,7 +189,7 @@ impl Store<'_> {
     }
 
     fn foreign(&self, name: &str) -> ResultsError {
-        ResultsError::unusable(
+        ResultsError::damaged(
             &self.path.join(name).join("zarr.json"),
             "not an array as a run writes it, or not what the group has of it",
         )

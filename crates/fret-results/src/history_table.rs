@@ -191,7 +191,7 @@ pub fn cycles_of(
     let mut lines = text.rfind('\n').map_or("", |last| &text[..last]).lines();
     let names: Vec<&str> = lines.next().unwrap_or_default().split(',').map(Units::name_of).collect();
     let foreign =
-        || ResultsError::unusable(&path, "not the table of a run's cycles, or that of an earlier version");
+        || ResultsError::damaged(&path, "not the table of a run's cycles, or that of an earlier version");
     let cycles = lines.map(|line| cycle(&names, line).ok_or_else(foreign));
     let mut cycles = cycles.collect::<Result<Vec<_>, _>>()?;
     cycles.retain(|cycle| cycle.last_increment < increments);

@@ -19,5 +19,19 @@ pub const START: &str = "start.state";
 /// Where an unfinished run stands.
 pub const CHECKPOINT: &str = "checkpoint";
 
+/// Stresses of a run: their folder below the results, and the record in it.
+pub const STRESS: [&str; 2] = ["stress", "stress.json"];
+/// Temperatures of a run.
+pub const HEAT: [&str; 2] = ["heat", "heat.json"];
+/// A comparison of its scar with a measured one.
+pub const SCAR: [&str; 2] = ["scar", "scar.json"];
+/// What is computed of a run when it is over, and shown beside it.
+pub const ANSWERS: [[&str; 2]; 3] = [STRESS, HEAT, SCAR];
+
+/// Whether a path has the name of a file that a run writes.
+pub fn is_of_a_run(path: &std::path::Path) -> bool {
+    path.file_name().is_some_and(|name| WRITTEN.iter().any(|written| name == *written))
+}
+
 /// All that a run writes.
 pub const WRITTEN: [&str; 9] = [CASE, RECORD, HISTORY, CYCLES, FIELDS, ERROR_BARS, STATES, START, CHECKPOINT];

@@ -27,9 +27,9 @@ pub fn read_record(folder: &Path) -> Result<Record, ResultsError> {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             return Err(ResultsError::unusable(folder, "no results of fret: it has no run.json"));
         }
-        read => read.map_err(|error| ResultsError::unusable(&path, &format!("cannot be read: {error}")))?,
+        read => read.map_err(|error| ResultsError::damaged(&path, &format!("cannot be read: {error}")))?,
     };
-    let foreign = |why: String| ResultsError::unusable(&path, &format!("not what a run writes: {why}"));
+    let foreign = |why: String| ResultsError::damaged(&path, &format!("not what a run writes: {why}"));
     let value: Value = serde_json::from_slice(&text).map_err(|error| foreign(error.to_string()))?;
     if !Glance::at(&text).is_known() {
         return Err(ResultsError::unusable(
@@ -43,7 +43,7 @@ pub fn read_record(folder: &Path) -> Result<Record, ResultsError> {
     }
     let asked = recorded_question(&value, record.start.as_ref());
     if record.question_fnv1a64.is_some() && record.question_fnv1a64 != asked {
-        return Err(ResultsError::unusable(&path, "its plan was changed since it was written"));
+        return Err(ResultsError::damaged(&path, "its plan was changed since it was written"));
     }
     if record.is_solved() {
         record.refuse_changed(folder, CASE, &fs::read(folder.join(CASE)).unwrap_or_default())?;
@@ -66,7 +66,7 @@ impl Record {
         let is_other =
             |(of, found): (String, u32)| end.checksums.get(&of).is_some_and(|written| *written != found);
         if checksums([(name, content)]).into_iter().any(is_other) {
-            return Err(ResultsError::unusable(
+            return Err(ResultsError::damaged(
                 &folder.join(name),
                 "missing, or changed since the run was solved",
             ));

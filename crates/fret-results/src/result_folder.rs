@@ -18,13 +18,16 @@ use crate::checksums::checksums;
 use crate::error::{ResultsError, Unwritten};
 use crate::field_store::FieldStore;
 use crate::history_table::{HistoryTable, Lines};
-use crate::names::{CASE, CHECKPOINT, CYCLES, ERROR_BARS, FIELDS, HISTORY, RECORD, WRITTEN};
-use crate::place::refuse_links_below;
+use crate::names::{ANSWERS, CASE, CHECKPOINT, CYCLES, ERROR_BARS, FIELDS, HISTORY, RECORD, WRITTEN};
+use crate::place::{refuse_link, refuse_links_below};
 use crate::results::Results;
 use crate::run_record::{Ending, Glance, Record, RunRecord, question};
 use crate::state_store::{StateStore, has_memory, states_below};
 use crate::tally::Tally;
 use crate::whole_file::write_whole;
+
+/// Kinds of files of which answers about results consist.
+const OF_ANSWERS: [&str; 5] = ["json", "csv", "svg", "npz", "vtr"];
 
 /// What lies where the results shall go.
 #[derive(Debug)]
@@ -150,6 +153,10 @@ impl ResultFolder {
                 "holds an unfinished run of this case",
                 "continue with --resume, or start from the beginning with --force".to_owned(),
             ),
+            Wish::Start if is_solved && !record.starts_as(plan) => refuse(
+                "holds results that start from another state",
+                format!("{other_folder}, or replace them with --force"),
+            ),
             _ if record.is_of_case(case_file) || same_text() => Ok(Standing::SameCase),
             Wish::Force => Ok(Standing::Forced),
             Wish::Start => refuse(
@@ -159,7 +166,8 @@ impl ResultFolder {
         }
     }
 
-    /// Makes the folder ready for a run: earlier results are gone afterwards, other files are left alone.
+    /// Makes the folder ready for a run: earlier results are gone afterwards, and stresses, temperatures and scars that were computed of them; other
+    /// files are left alone.
     ///
     /// # Errors
     /// When another run writes into the folder, or a file cannot be written.
@@ -175,7 +183,10 @@ impl ResultFolder {
         write_whole(&path.join(RECORD), &record.running())?;
         checkpoints.clear()?;
         remove_earlier_fields(&path.join(FIELDS))?;
-        remove_earlier_bars(&path.join(ERROR_BARS))?;
+        remove_earlier_file(&path.join(ERROR_BARS))?;
+        for [folder, record] in ANSWERS {
+            remove_earlier_answer(&path.join(folder), record)?;
+        }
         write_whole(&path.join(CASE), case_file.text.as_bytes())?;
         for (name, content) in case_file.beside.iter().flat_map(|beside| &beside.contents) {
             write_whole(&path.join(name), content)?;
@@ -383,11 +394,28 @@ fn holds_nothing(path: &Path) -> bool {
     }
 }
 
-fn remove_earlier_bars(path: &Path) -> Result<(), Unwritten> {
+fn remove_earlier_file(path: &Path) -> Result<(), Unwritten> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(Unwritten::at(path)(error)),
         _ => Ok(()),
     }
+}
+
+/// The record, and what was written beside it, of an answer about the results that were there; other files stay.
+fn remove_earlier_answer(folder: &Path, record: &str) -> Result<(), Unwritten> {
+    if refuse_link(folder).is_err() || !folder.join(record).exists() {
+        return Ok(());
+    }
+    for entry in fs::read_dir(folder).map_err(Unwritten::at(folder))?.flatten() {
+        let path = entry.path();
+        let written = path.extension().is_some_and(|kind| OF_ANSWERS.iter().any(|written| kind == *written));
+        if written && path.is_file() {
+            remove_earlier_file(&path)?;
+        }
+    }
+    // One with files of others stays.
+    let _ = fs::remove_dir(folder);
+    Ok(())
 }
 
 fn remove_earlier_fields(path: &Path) -> Result<(), Unwritten> {

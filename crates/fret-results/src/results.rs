@@ -123,6 +123,18 @@ impl Results {
         })
     }
 
+    /// That no fatigue is told of the last stage, since the places of the bodies travel through the grid in its cycles, in a sentence; none where
+    /// they stay.
+    pub fn places_travel(&self) -> Option<String> {
+        let stages = &self.case().stages;
+        let last = self.table.column("stage").last().and_then(|stage| stages.get(*stage as usize))?;
+        (last.cycles().is_some() && self.case().places_travel(last)).then(|| {
+            "no fatigue is told of cycles of roll with kinematics.frame = \"contact\", in which the places of the bodies travel through the grid: frame = \
+             \"bodies\", on a grid that holds all of the way, keeps them"
+                .to_owned()
+        })
+    }
+
     /// The head of a column of a field, with its unit where the case declares units.
     pub fn field_heading(&self, name: &str) -> String {
         Units::heading(self.units(), name, kind_of_field(name), Dimension::Plane)

@@ -276,6 +276,12 @@ impl Glance {
         self.message.as_deref().unwrap_or("unknown reason")
     }
 
+    /// Whether its run started from the state that a plan starts from.
+    pub fn starts_as(&self, plan: &Plan) -> bool {
+        self.start.as_ref().map(|start| start.fnv1a64.as_str())
+            == plan.start.as_ref().map(|start| start.digest())
+    }
+
     /// Whether it was made from the file that `case_file` was read from.
     pub fn is_of_case(&self, case_file: &CaseFile) -> bool {
         self.case_file.path_fnv1a64 == place_hash(case_file)

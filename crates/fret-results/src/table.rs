@@ -38,7 +38,7 @@ impl Table {
         let table = Self::read(&path)?;
         record.refuse_changed(folder, HISTORY, &fs::read(&path).unwrap_or_default())?;
         match record.end.as_ref().map(|end| end.totals.increments) {
-            Some(all) if record.is_solved() && all != table.rows => Err(ResultsError::unusable(
+            Some(all) if record.is_solved() && all != table.rows => Err(ResultsError::damaged(
                 &path,
                 &format!("{} increments of {all} that were solved", table.rows),
             )),
@@ -52,7 +52,7 @@ impl Table {
     /// When it cannot be read, or is not the table of a run.
     pub fn read(path: &Path) -> Result<Self, ResultsError> {
         let text = fs::read_to_string(path)
-            .map_err(|error| ResultsError::unusable(path, &format!("cannot be read: {error}")))?;
+            .map_err(|error| ResultsError::damaged(path, &format!("cannot be read: {error}")))?;
         let text = text.rsplit_once('\n').map_or("", |(whole, _)| whole).to_owned() + "\n";
         let mut lines = text.lines();
         let names: Vec<&str> = lines.next().unwrap_or_default().split(',').map(Units::name_of).collect();
@@ -60,7 +60,7 @@ impl Table {
         table.columns.extend(names.iter().map(|&name| (name.to_owned(), Vec::new())));
         for (number, line) in lines.enumerate() {
             let torn =
-                || ResultsError::unusable(path, &format!("line {} is not a row of the table", number + 2));
+                || ResultsError::damaged(path, &format!("line {} is not a row of the table", number + 2));
             let cells: Vec<&str> = line.split(',').collect();
             if cells.len() != names.len() {
                 return Err(torn());
@@ -79,7 +79,7 @@ impl Table {
         table.columns.retain(|(name, _)| name != REGIME);
         let needed = ["increment", "stage", "normal_force", "tangential_force_x", "shift_x", "residual"];
         match needed.iter().find(|needed| !names.contains(needed)) {
-            Some(needed) => Err(ResultsError::unusable(path, &format!("has no column {needed:?}"))),
+            Some(needed) => Err(ResultsError::damaged(path, &format!("has no column {needed:?}"))),
             None => Ok(Self { text, ..table }),
         }
     }

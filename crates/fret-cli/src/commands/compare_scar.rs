@@ -20,7 +20,7 @@ use crate::identify::name_of;
 use crate::manner::place_of_answer;
 use crate::table::{Cell, Columns};
 use crate::terminal::Answer;
-use fret_results::Results;
+use fret_results::{Results, SCAR};
 
 /// Fields that hold a wear depth: of each body where they move against each other, or of both together.
 const OF_BOTH: &str = "worn_depth";
@@ -41,11 +41,10 @@ pub fn compare_scar(arguments: &CompareScarArguments) -> Result<Answer, Failure>
     }
     let found = compare(&worn.section(&run, axis), run.grid().spacing()[axis], measured).map_err(refused)?;
     let manner = &arguments.manner;
-    let kind = ("scar", "scar.json", "a comparison of scars");
-    let place = place_of_answer(manner, &arguments.folder, kind)?;
+    let place = place_of_answer(manner, &arguments.folder, SCAR, "a comparison of scars")?;
     let answer = BesideMeasured { run: &run, worn: &worn, along: &arguments.along, found: &found };
     let record = answer.record();
-    manner.write_json(&place.join("scar.json"), &record)?;
+    manner.write_json(&place.join(SCAR[1]), &record)?;
     manner.write(&place.join("scar.csv"), answer.csv().as_bytes())?;
     manner.write(&place.join("scar.svg"), answer.picture().as_bytes())?;
     let text = format!("{}\nwritten to {}", answer.text(), place.display());

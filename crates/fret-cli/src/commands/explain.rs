@@ -17,11 +17,20 @@ const MOST_NEAR: usize = 4;
 /// Tells what is known of a warning, or lists all.
 pub fn explain(name: Option<&str>) -> Result<Answer, Failure> {
     let Some(name) = name else { return Ok(list()) };
-    let asked = plain(name);
+    // the stage that a message may name first
+    let words = name
+        .strip_prefix("stage \"")
+        .and_then(|rest| rest.split_once("\": "))
+        .map_or(name, |(_, words)| words);
+    let asked = plain(words);
     // by its name, or by the words that its message begins with, if those are of one alone
-    let begins = |row: &Row| !asked.is_empty() && plain(row.quantity).starts_with(&asked);
+    let begins = |row: &Row| {
+        let begins = plain(row.begins());
+        !asked.is_empty() && (begins.starts_with(&asked) || asked.starts_with(&begins))
+    };
     let begun: Vec<Row> = ROWS.into_iter().filter(begins).collect();
-    let named = ROWS.into_iter().find(|row| [row.name, row.quantity].map(plain).contains(&asked));
+    let named =
+        ROWS.into_iter().find(|row| [row.name, row.quantity, row.begins()].map(plain).contains(&asked));
     let Some(row) = named.or(if let [one] = begun[..] { Some(one) } else { None }) else {
         let is_near = |row: &Row| begun.contains(row) || plain(row.name).contains(&asked);
         let near: Vec<&str> = ROWS.into_iter().filter(is_near).map(|row| row.name).collect();

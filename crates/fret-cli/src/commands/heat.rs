@@ -25,7 +25,7 @@ use crate::figures::{duration, figure_in};
 use crate::interrupt;
 use crate::manner::{Manner, place_of_answer};
 use crate::terminal::Answer;
-use fret_results::{CaseFile, Results};
+use fret_results::{CaseFile, HEAT, Results};
 
 /// What brings conductors.
 const CONDUCTORS: &str =
@@ -97,7 +97,7 @@ fn computed(
     manner: &Manner,
 ) -> Result<Option<(HeatRecord, String)>, Failure> {
     let started = Instant::now();
-    let place = || place_of_answer(manner, folder, ("heat", "heat.json", "temperatures of a run"));
+    let place = || place_of_answer(manner, folder, HEAT, "temperatures of a run");
     // What is asked for is refused before the work; the folder below the results is made for an answer alone.
     let asked = manner.out.is_some().then(place).transpose()?;
     let ([first, last], _) = run.last_cycle();

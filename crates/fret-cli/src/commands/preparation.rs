@@ -130,11 +130,8 @@ fn announce(manner: &Manner, plan: &Plan, folder: &Path, standing: &Standing) {
         Standing::Free | Standing::Unfinished | Standing::Solved(_) => {}
         Standing::SameCase => {
             manner.say(&format!("{shown}: the earlier results of this case are replaced"));
-            let made_since = ["report.html", "export.npz", "csv", "vtk", "stress"];
-            let stays = |name: &&str| {
-                folder.join(name).exists() && !(*name == "stress" && plan.case.stress.is_some())
-            };
-            let old: Vec<&str> = made_since.into_iter().filter(stays).collect();
+            let made_since = ["report.html", "export.npz", "csv", "vtk"];
+            let old: Vec<&str> = made_since.into_iter().filter(|name| folder.join(name).exists()).collect();
             if !old.is_empty() {
                 manner.say(&format!("{shown}: still of the earlier run: {}", old.join(", ")));
             }

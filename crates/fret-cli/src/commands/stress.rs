@@ -24,7 +24,7 @@ use crate::failure::{Failure, Unwritten};
 use crate::interrupt;
 use crate::manner::{Manner, place_of_answer};
 use crate::terminal::Answer;
-use fret_results::Results;
+use fret_results::{Results, STRESS};
 
 /// A stress by its name in a volume.
 type Stress = (&'static str, fn(&StressField, usize, usize) -> f64);
@@ -105,7 +105,7 @@ fn computed(
         }
         None => automatic_depths(half_space, reach(run, &surfaces), AUTOMATIC),
     };
-    let place = place_of_answer(manner, folder, ("stress", "stress.json", "stresses of a run"))?;
+    let place = place_of_answer(manner, folder, STRESS, "stresses of a run")?;
     let constants = run.fatigue_constants(request);
     let (constants, points, surfaces) = (&constants, &points[..], &surfaces[..]);
     let mut tables = StressTables::new(Below { run, request, half_space, constants, points, surfaces });

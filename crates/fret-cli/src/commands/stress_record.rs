@@ -19,6 +19,9 @@ pub struct StressRecord {
     /// That only the ends of the stages are kept, and how to keep more, where that is so.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stage_ends_alone: Option<String>,
+    /// That no fatigue is told of cycles in which the places of the bodies travel through the grid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub places_travel: Option<String>,
     /// The body.
     pub body: String,
     /// Units that the case declares.

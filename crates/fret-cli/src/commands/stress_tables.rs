@@ -41,8 +41,9 @@ impl<'a> StressTables<'a> {
     pub fn new(below: Below<'a>) -> Self {
         let row = below.run.grid().cells()[1] / 2;
         let ([first, last], cyclic) = below.run.last_cycle();
+        let stays = below.run.places_travel().is_none();
         let is_of_cycle =
-            |index: &usize| cyclic && (first..=last).contains(&below.surfaces[*index].increment);
+            |index: &usize| cyclic && stays && (first..=last).contains(&below.surfaces[*index].increment);
         let cycle = (0..below.surfaces.len()).filter(is_of_cycle).collect();
         Self {
             below,
@@ -100,6 +101,7 @@ impl<'a> StressTables<'a> {
             status: "computed".to_owned(),
             unfinished: run.unfinished(),
             stage_ends_alone: run.stage_ends_alone(),
+            places_travel: run.places_travel(),
             body: request.body.name().to_owned(),
             units: run.units().cloned(),
             increments: surfaces.iter().map(|surface| surface.increment).collect(),
@@ -176,7 +178,8 @@ impl<'a> StressTables<'a> {
     }
 
     fn table(&self, record: &StressRecord, place: &Path, fatigue: &str) -> String {
-        let said = [&record.unfinished, &record.stage_ends_alone].into_iter().flatten();
+        let said =
+            [&record.unfinished, &record.stage_ends_alone, &record.places_travel].into_iter().flatten();
         let unfinished: String = said.map(|why| format!("{why}\n")).collect();
         let mut text = unfinished
             + &format!(

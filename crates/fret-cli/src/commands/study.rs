@@ -6,8 +6,8 @@ use fret_core::machine::memory;
 use fret_core::plan::Plan;
 use fret_core::run::Observer;
 use fret_core::study::{
-    ClosedForm, Level, Line, Place, Quantity, Reference, RefinementStudy, Resolutions, pressure_is_unbounded,
-    solved_level,
+    ClosedForm, Level, Line, Place, Quantity, Reference, RefinementStudy, Resolutions, VariationError,
+    pressure_is_unbounded, solved_level,
 };
 use serde_json::json;
 
@@ -228,9 +228,15 @@ fn all_levels(
             counted(variation.increments.iter().sum(), "increment"),
             variation.tolerance
         );
-        let varied = variation
-            .planned(plan)
-            .map_err(|error| Failure::call(format!("{cells} cells: {error}"), "fret study --help"))?;
+        let varied = match variation.planned(plan) {
+            Ok(varied) => varied,
+            Err(VariationError::PartsOfCells(why)) if *place != resolutions.finest() => {
+                say(&format!("{head}: skipped, {why}"));
+                unsolved.push((*place, why));
+                continue;
+            }
+            Err(error) => return Err(Failure::call(format!("{cells} cells: {error}"), "fret study --help")),
+        };
         if let Some(level) = kept.and_then(|kept| kept.finished(&varied)) {
             say(&format!("{head}: {}, solved before", duration(level.wall_s)));
             levels.push((*place, level));

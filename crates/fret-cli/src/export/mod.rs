@@ -31,9 +31,28 @@ fn written(
     outcome
 }
 
-/// Makes a folder for several files.
-fn folder(path: &Path) -> Result<(), Failure> {
+/// Makes a folder for the `fields_*` of an increment with this ending and for the file named after the history. What it holds has to be an earlier
+/// export, which is then gone.
+fn folder(path: &Path, history: &str, ending: &str) -> Result<(), Failure> {
     let path = resolved_path(path);
     refuse_link(&path)?;
+    let is_ours = |name: &str| {
+        let number = name.strip_prefix("fields_").and_then(|rest| rest.strip_suffix(ending));
+        name == history || number.is_some_and(|number| number.bytes().all(|digit| digit.is_ascii_digit()))
+    };
+    let entries: Vec<_> = fs::read_dir(&path).into_iter().flatten().flatten().collect();
+    if let Some(other) = entries.iter().find(|entry| !entry.file_name().to_str().is_some_and(is_ours)) {
+        return Err(Failure::call(
+            format!(
+                "{}: holds {}, which is no file of an export",
+                path.display(),
+                other.file_name().display()
+            ),
+            "choose another folder with --out DIR",
+        ));
+    }
+    for entry in entries {
+        fs::remove_file(entry.path()).map_err(Unwritten::at(&entry.path()))?;
+    }
     fs::create_dir_all(&path).map_err(|error| Unwritten::at(&path)(error).into())
 }

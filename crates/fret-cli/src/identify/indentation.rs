@@ -6,11 +6,12 @@ use serde_json::{Value, json};
 
 use super::constant::{cell, cells, of_constant};
 use super::record::rows_in_words;
-use super::{Identified, case_with, dotted, value_of};
+use super::{Identified, case_with, value_of};
 use crate::drawing::{Chart, Curve, Label, Stroke};
 use crate::failure::Failure;
 use crate::figures::{counted, figure};
 use crate::report::{number, table, whole_page};
+use crate::sweep::key::dotted;
 use crate::table::Columns;
 use fret_results::CaseFile;
 

@@ -97,7 +97,7 @@ fn value_of(case_file: &CaseFile, key: &str) -> Result<f64, Failure> {
     }
     let table: Table = case_file.text.parse().map_err(|_| unknown(key))?;
     let root = toml::Value::Table(table);
-    let found = dotted(key).split('.').try_fold(&root, |here, part| {
+    let found = key::dotted(key).split('.').try_fold(&root, |here, part| {
         part.parse::<usize>().map_or_else(|_| here.get(part), |index| here.get(index))
     });
     let value =
@@ -113,17 +113,12 @@ fn unknown(key: &str) -> Failure {
     )
 }
 
-/// A key with numbers in brackets as one with numbers for keys: `lower.coatings[0].young` as `lower.coatings.0.young`.
-fn dotted(key: &str) -> String {
-    key.replace('[', ".").replace(']', "")
-}
-
 /// The case with other numbers at keys.
 fn case_with(case_file: &CaseFile, numbers: &[(&str, f64)]) -> Result<Case, CaseError> {
     let refuse = |why: String| CaseError::plain(&case_file.name(), why);
     let mut table: Table = case_file.text.parse().map_err(|_| refuse("no table of keys".to_owned()))?;
     for (name, value) in numbers {
-        key::put(&mut table, &dotted(name), &toml::Value::Float(*value)).map_err(refuse)?;
+        key::put(&mut table, name, &toml::Value::Float(*value)).map_err(refuse)?;
     }
     let text = toml::to_string(&table).map_err(|error| refuse(error.to_string()))?;
     CaseFile { text, ..case_file.clone() }.case(None)

@@ -27,7 +27,7 @@ pub use overview::Overview;
 pub use rolled::Rolled;
 pub use sweep::called;
 pub use window::{Part, Section, Window};
-pub use written::read_answer;
+pub use written::{answer_beside, read_answer};
 
 /// The style of the page.
 const STYLE: &str = include_str!("page.css");

@@ -4,13 +4,15 @@ use toml::{Table, Value};
 
 /// Gives `value` to the entry of a case that a dotted key names.
 ///
-/// Parts are names of tables, numbers of a list's entries from 0 (negative: from the end), or, in a list of tables, the
+/// Parts are names of tables, numbers of a list's entries from 0 (negative: from the end; `load[0]` is `load.0`), or, in a list of tables, the
 /// `name` of one. Tables that are not there are made, entries of lists are not.
 ///
 /// # Errors
 /// What stands where the key leads, when it leads nowhere.
 pub fn put(case: &mut Table, key: &str, value: &Value) -> Result<(), String> {
     let nothing = || Value::Table(Table::new());
+    let key = dotted(key);
+    let key = key.as_str();
     let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
     let (mut here, mut place) = (case.entry(first).or_insert_with(nothing), first.to_owned());
     for part in rest.into_iter().flat_map(|rest| rest.split('.')) {
@@ -26,6 +28,18 @@ pub fn put(case: &mut Table, key: &str, value: &Value) -> Result<(), String> {
     }
     *here = value.clone();
     Ok(())
+}
+
+/// A key with the numbers of entries between points: `load[0].normal_force`, as derivatives name it, is `load.0.normal_force`.
+pub fn dotted(key: &str) -> String {
+    let is_number = |word: &str| word.parse::<isize>().is_ok();
+    let part = |part: &str| match part.strip_suffix(']').and_then(|part| part.split_once('[')) {
+        Some((name, numbers)) if numbers.split("][").all(is_number) => {
+            std::iter::once(name).chain(numbers.split("][")).collect::<Vec<_>>().join(".")
+        }
+        _ => part.to_owned(),
+    };
+    key.split('.').map(part).collect::<Vec<_>>().join(".")
 }
 
 /// Parts of a key that are no numbers of entries.
@@ -51,6 +65,25 @@ fn entry_of(items: &[Value], place: &str, word: &str) -> Result<usize, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_of_entries_stand_between_points_or_in_brackets() {
+        for (key, dotted_key) in [
+            ("load[0].normal_force", "load.0.normal_force"),
+            ("lower.coatings[1].young", "lower.coatings.1.young"),
+            ("load[-1].tangential_force[0]", "load.-1.tangential_force.0"),
+            ("friction.coefficient", "friction.coefficient"),
+            ("load.press [1]", "load.press .1"),
+            ("load.[odd]", "load.[odd]"),
+        ] {
+            assert_eq!(dotted(key), dotted_key);
+        }
+        let mut one = case();
+        put(&mut one, "load[1].tangential_force[0]", &Value::Float(2.0)).unwrap();
+        let mut other = case();
+        put(&mut other, "load.1.tangential_force.0", &Value::Float(2.0)).unwrap();
+        assert!(one == other && one != case());
+    }
 
     fn case() -> Table {
         "[friction]\ncoefficient = 0.2\n[[load]]\nname = 'press'\nnormal_force = 1.0\n[[load]]\ntangential_force = [1.0, 0.0]"

@@ -11,7 +11,7 @@ use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
 use crate::sweep::drawn::{Drawn, KINDS};
-use crate::sweep::key::put;
+use crate::sweep::key::{dotted, put};
 use fret_results::CaseFile;
 
 /// More mistakes than this are not told.
@@ -177,7 +177,7 @@ impl Reader<'_> {
                 DeValue::Table(_) => self.axes(value, &format!("{key}."), axes),
                 DeValue::Array(items) if !items.is_empty() => {
                     let rows = items.iter().map(|item| vec![self.plain(item)]).collect();
-                    axes.push(Axis { keys: vec![key], rows, span: value.span() });
+                    axes.push(Axis { keys: vec![dotted(&key)], rows, span: value.span() });
                 }
                 _ => self.refuse(
                     value.span(),
@@ -194,14 +194,14 @@ impl Reader<'_> {
             return None;
         };
         let tables: Vec<Table> = points.iter().filter_map(Value::as_table).map(flattened).collect();
-        let keys: Vec<String> = tables.first().map_or_else(Vec::new, |first| first.keys().cloned().collect());
-        let alike = tables.iter().all(|table| table.keys().eq(keys.iter()));
+        let keys: Vec<&String> = tables.first().map_or_else(Vec::new, |first| first.keys().collect());
+        let alike = tables.iter().all(|table| table.keys().eq(keys.iter().copied()));
         if keys.is_empty() || tables.len() < points.len() || !alike {
             self.refuse(value.span(), "point: every [[point]] must have the same keys, at least one", None);
             return None;
         }
         let rows = tables.iter().map(|table| table.values().cloned().collect()).collect();
-        Some(Axis { keys, rows, span: value.span() })
+        Some(Axis { keys: keys.into_iter().map(|key| dotted(key)).collect(), rows, span: value.span() })
     }
 
     /// Distributions of a table; tables in it that are none are parts of dotted keys.
@@ -223,7 +223,7 @@ impl Reader<'_> {
                 continue;
             }
             let plain = self.plain(value);
-            if let Err(message) = drawn.add(key, plain) {
+            if let Err(message) = drawn.add(dotted(&key), plain) {
                 self.refuse(value.span(), message, Some(help));
             }
         }

@@ -136,6 +136,19 @@ fn every_warning_is_explained() {
     let wrong = bench.fret(&["explain", "waves"]);
     assert_eq!(wrong.code, Some(1));
     assert!(bench.fret(&["explain", "wave"]).err.contains("did you mean few_cells_per_wave?"));
+    // what its message begins with, with the stage that it is about or without it
+    for (words, name) in [
+        ("the coating is thinner than a cell (0.42 cells)", "coating_thinner_than_cell"),
+        (
+            "stage \"press: twice\": the contact radius grows by 4.1 cells per increment",
+            "pressing_in_few_increments",
+        ),
+        ("the contact radius grows", "pressing_in_few_increments"),
+        ("cells in the contact radius: 4.2, stage \"press\"", "few_cells"),
+    ] {
+        let told = bench.fret(&["explain", words]);
+        assert!(told.out.starts_with(&format!("{name}\n")), "{words}: {}{}", told.out, told.err);
+    }
     // the first words of its message, where they are of one alone
     assert!(bench.fret(&["explain", "cells in the"]).out.starts_with("few_cells\n"));
     assert!(bench.fret(&["explain", "a"]).err.contains("lists them all"));

@@ -176,3 +176,38 @@ fn only_the_ends_of_stages_are_kept_unless_the_case_says_more_and_that_is_told()
         assert_eq!(bench.text(&format!("{case}/report.html")).contains(told), is_told);
     }
 }
+
+/// In the frame of the contact a cell is another place of the bodies in each increment of a roll: no fatigue is told of its cycles, and that is said.
+#[test]
+fn no_fatigue_is_told_of_places_that_travel_through_the_grid() {
+    let bench = Bench::new("stress-travel");
+    let constants = "poisson = 0.3, fatigue = { torsion_limit = 200e6, tension_limit = 400e6 } }";
+    let with = |frame: &str| {
+        let (head, _) = SPHERE.split_once("[[load]]").unwrap();
+        let head = head.replace("poisson = 0.3 }", constants);
+        format!(
+            "{head}[kinematics]\nframe = \"{frame}\"\n[output]\nevery = 1\n[[load]]\nnormal_force = 0.2\nincrements = 2\n\
+             [[load]]\nroll = [20e-6, 0.0]\ncycles = 1\nincrements = 8\n"
+        )
+    };
+    for (frame, travels) in [("bodies", false), ("contact", true)] {
+        let file = format!("{frame}.toml");
+        bench.file(&file, &with(frame));
+        let run = bench.fret(&["run", &file, "--out", frame, "--quiet"]);
+        assert_eq!(run.code, Some(0), "{}", run.err);
+        let answer = bench.fret(&["stress", frame, "--depths", "5e-6"]);
+        assert_eq!(answer.code, Some(0), "{}", answer.err);
+        let told = "the places of the bodies travel through the grid";
+        assert_eq!(
+            (answer.out.contains(told), answer.out.contains("crossland")),
+            (travels, !travels),
+            "{}",
+            answer.out
+        );
+        let record: Value =
+            serde_json::from_str(&bench.text(&format!("{frame}/stress/stress.json"))).unwrap();
+        assert_eq!((record["fatigue"].is_null(), record.get("places_travel").is_some()), (travels, travels));
+        assert_eq!(bench.fret(&["report", frame]).code, Some(0));
+        assert_eq!(bench.text(&format!("{frame}/report.html")).contains(told), travels);
+    }
+}

@@ -73,6 +73,12 @@ fn without_meaning(
             "cycles = ... in the last stage",
         ));
     }
+    if known.stages.is_some_and(|stages| stages.last().is_some_and(Stage::rolls)) {
+        return Some((
+            "the contact rolls in the last stage, and the heat of a cycle is taken to enter both bodies in the same places",
+            "a last stage that does not roll, or leave [thermal] out",
+        ));
+    }
     let kept = output.is_none_or(|output| {
         output.every == Some(1) && ["pressure", "shear", "slip"].iter().all(|name| output.keeps(name))
     });
@@ -164,6 +170,11 @@ mod tests {
                 [upper, coating, substrate, every],
                 "[[load]]\nshift = [0.0, 0.0]\nincrements = 1\n[thermal]\nfrequency = 1.0\n",
                 "no cycles",
+            ),
+            (
+                [upper, coating, substrate, every],
+                "[[load]]\nroll = 0.4\ncycles = 1\nincrements = 8\n[thermal]\nfrequency = 1.0\n",
+                "the contact rolls",
             ),
         ] {
             let error = read(words, more).unwrap_err();

@@ -3,7 +3,7 @@
 use super::file::UnitsFile;
 use super::judge::Judge;
 use crate::document::At;
-use crate::units::{Units, symbol_of};
+use crate::units::{Units, is_of_another, symbol_of};
 
 /// Letters of a unit, at most.
 const LONGEST: usize = 12;
@@ -28,6 +28,10 @@ pub(super) fn declared_units(judge: &mut Judge, file: &UnitsFile) -> Option<Unit
                 format!("for example {name} = \"{base}\"")
             };
             return judge.refuse(given.span(), format!("units.{name} = {unit:?}: {why}"), &help);
+        }
+        if is_of_another(unit, name) {
+            let why = format!("units.{name} = {unit:?}: a unit of another quantity");
+            return judge.refuse(given.span(), why, &format!("for example {name} = \"{base}\""));
         }
         if is_word {
             return Some(unit.clone());
@@ -69,6 +73,12 @@ mod tests {
         refused(BALL, &mistaken, "units.length = \"newton\": no unit of length", "\"newton\"");
         let mistaken = [("[grid]", "[units]\nlength = \"mm\"\nforce = \"meter\"\n[grid]")];
         refused(BALL, &mistaken, "units.force = \"meter\": no unit of force", "\"meter\"");
+        for other in ["N", "MPa", "mm^2", "Nm"] {
+            let (text, place) = (units(other), format!("\"{other}\""));
+            refused(BALL, &[("[grid]", &text)], "a unit of another quantity", &place);
+        }
+        let mistaken = [("[grid]", "[units]\nlength = \"mm\"\nforce = \"mm\"\n[grid]")];
+        refused(BALL, &mistaken, "units.force = \"mm\": a unit of another quantity", "\"mm\"\n[grid]");
         assert_eq!(read(BALL, &[]).units, None);
     }
 }

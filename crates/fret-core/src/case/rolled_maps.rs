@@ -6,7 +6,25 @@ use super::judge::Judge;
 use super::misfits::Loading;
 use crate::model::{CoulombFriction, Kinematics, Profile};
 
-/// Refuses them where they leave no steady state, or nothing says what lies beyond them; and what lies beyond maps that are none.
+/// Refuses what lies beyond maps that are none.
+pub(super) fn beyond_no_map(
+    judge: &mut Judge,
+    file: &CaseFile,
+    (profile, laws): (Option<&Profile>, Option<&[&CoulombFriction]>),
+) {
+    let (Some(profile), Some(laws)) = (profile, laws) else { return };
+    let has_maps = !profile.heights.is_empty() || laws.iter().any(|law| law.is_map());
+    let beyond = file.kinematics.as_ref().and_then(|given| given.value.beyond_maps.as_ref());
+    if let Some(given) = beyond.filter(|_| !has_maps) {
+        judge.refuse::<()>(
+            given.span(),
+            "kinematics.beyond_maps without a map: the case has neither heights nor a friction map",
+            "leave it out",
+        );
+    }
+}
+
+/// Refuses them where they leave no steady state, or nothing says what lies beyond them.
 pub(super) fn maps_that_travel(
     judge: &mut Judge,
     file: &CaseFile,
@@ -17,14 +35,6 @@ pub(super) fn maps_that_travel(
     let heights = profile.is_some_and(|profile| !profile.heights.is_empty());
     let maps = [(friction, "a friction map"), (heights, "topography")];
     let given = file.kinematics.as_ref();
-    let beyond = given.and_then(|given| given.value.beyond_maps.as_ref());
-    if let Some(given) = beyond.filter(|_| !friction && !heights && profile.is_some() && laws.is_some()) {
-        judge.refuse::<()>(
-            given.span(),
-            "kinematics.beyond_maps without a map: the case has neither heights nor a friction map",
-            "leave it out",
-        );
-    }
     let steady = files.iter().find(|file| file.value.controls.are_steady());
     let steady = steady.and_then(|file| file.value.controls.of("roll"));
     let (span, why, help) = if let Some(steady) = steady.map(Given::span) {
@@ -71,6 +81,7 @@ mod tests {
         let case = read(ROLLER, &[map, beyond, ("increments = 1\n", &and_back)]);
         assert_eq!(case.kinematics.beyond_maps, Some(BeyondMaps::Mirrors));
         refused(ROLLER, &[beyond, rolled], "without a map", "\"mirrors\"");
+        refused(ROLLER, &[beyond], "without a map", "\"mirrors\"");
         let steady = with("roll = \"steady\"");
         refused(
             ROLLER,

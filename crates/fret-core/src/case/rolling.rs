@@ -6,7 +6,7 @@ use super::control_keys::{BothOrOne, Given, LARGEST};
 use super::file::CaseFile;
 use super::judge::Judge;
 use super::misfits::{Loading, Misfit};
-use super::rolled_maps::maps_that_travel;
+use super::rolled_maps::{beyond_no_map, maps_that_travel};
 use super::stage_file::{IncrementsFile, StageFile};
 use crate::document::At;
 use crate::model::controls::{BULK_STRESS, FREEDOMS, Kind, ROLL, TANGENTIAL, TILT};
@@ -21,8 +21,13 @@ pub(super) fn rolling(
     (kinematics, profile, laws): (Kinematics, Option<&Profile>, Option<&[&CoulombFriction]>),
 ) {
     rates(judge, loading);
+    if kinematics.frame == Frame::Contact {
+        beyond_no_map(judge, file, (profile, laws));
+    }
     let (files, stages) = loading;
-    let rolls = files.iter().any(|stage| stage.controls.of("roll").is_some())
+    let has_rolled = judge.attachments.start.as_ref().is_some_and(|start| start.roll != [0.0; 2]);
+    let rolls = has_rolled
+        || files.iter().any(|stage| stage.controls.of("roll").is_some())
         || stages.is_some_and(|stages| stages.iter().any(Stage::rolls));
     if !rolls {
         return;

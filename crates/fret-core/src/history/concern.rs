@@ -118,6 +118,17 @@ pub struct Row {
     pub help: &'static str,
 }
 
+impl Row {
+    /// The words that its message begins with, after the stage where that is named first.
+    pub fn begins(&self) -> &'static str {
+        match self.concern {
+            Concern::CoatingThinnerThanCell => "the coating is thinner than a cell",
+            Concern::PressingInFewIncrements => "the contact radius grows by",
+            _ => self.quantity,
+        }
+    }
+}
+
 /// What is said of each, in the order of the manual.
 pub const ROWS: [Row; 17] = [
     Row {

@@ -114,6 +114,7 @@ impl Start {
         let matters = [
             (FRAME, "kinematics.frame", "bodies", reached.roll != [0.0; 2]),
             (WHOSE_FRICTION, "friction.moves_with", "lower", reached.accumulated.is_some()),
+            (BEYOND_MAPS, "kinematics.beyond_maps", "edge", reached.roll != [0.0; 2]),
         ];
         let words = matters.map(|(name, _, default, _)| {
             [&mut of_case, &mut own].map(|setting| {
@@ -142,6 +143,8 @@ impl Start {
 
 /// Key of the frame in which a contact rolls.
 const FRAME: &str = "frame";
+/// Key of what lies beyond maps that travel through the grid.
+const BEYOND_MAPS: &str = "beyond_maps";
 /// Key of the body to whose places a friction map, and what friction follows, belong.
 const WHOSE_FRICTION: &str = "friction_of";
 
@@ -159,6 +162,7 @@ pub(crate) fn setting(plan: &Value) -> Value {
         "profile": case["profile"],
         "kinematics": { "displacement": displacement(case) },
         FRAME: case["kinematics"]["frame"],
+        BEYOND_MAPS: case["kinematics"]["beyond_maps"],
         WHOSE_FRICTION: if case["kinematics"]["friction_of_upper"] == true { "upper" } else { "lower" },
     });
     // approach and shift of a line contact are relative to it

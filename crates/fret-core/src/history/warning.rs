@@ -25,7 +25,8 @@ pub struct Warning {
 impl Warning {
     /// The warning of a number, where it has crossed its bound.
     pub fn of(name: Concern, value: f64, stage: Option<String>) -> Option<Self> {
-        let Row { bound, warns_below, quantity, consequence, help, .. } = *name.row();
+        let row = name.row();
+        let Row { bound, warns_below, consequence, help, .. } = *row;
         let crossed = if warns_below { value < bound } else { value > bound };
         if !(crossed && value.is_finite()) {
             return None;
@@ -33,10 +34,11 @@ impl Warning {
         let place = stage.as_ref().map_or(String::new(), |stage| format!(", stage \"{stage}\""));
         let side = if warns_below { "at least" } else { "at most" };
         let message = if name == Concern::CoatingThinnerThanCell {
-            format!("the coating is thinner than a cell ({} cells); {consequence}", rounded(value))
+            format!("{} ({} cells); {consequence}", row.begins(), rounded(value))
         } else {
             format!(
-                "{quantity}: {}{place} (should be {side} {}); {consequence}",
+                "{}: {}{place} (should be {side} {}); {consequence}",
+                row.begins(),
                 rounded(value),
                 rounded(bound)
             )
@@ -54,7 +56,8 @@ impl Warning {
         (enough, ramp): (usize, Option<&str>),
     ) -> Self {
         let message = format!(
-            "stage \"{stage}\": the contact radius grows by {} cells per increment (limit {}), which leaves rings in the shear traction",
+            "stage \"{stage}\": {} {} cells per increment (limit {}), which leaves rings in the shear traction",
+            Concern::PressingInFewIncrements.row().begins(),
             rounded(growth),
             rounded(limit)
         );

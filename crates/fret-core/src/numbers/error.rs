@@ -98,7 +98,7 @@ impl NumbersError {
         match self {
             Self::Word { why: NoNumber::Hole, .. } => HOLES,
             Self::Word { why: NoNumber::Other, .. } => {
-                "lines of words begin with #, %, !, ; or //; heights without a measurement are filled with fill = \"harmonic\" beside the file"
+                "lines of words begin with #, %, !, ; or //; where the file is one of heights, those without a measurement are filled with fill = \"harmonic\" beside it"
             }
             Self::DecimalComma { .. } => {
                 "write decimal points; or decimal commas, with semicolons or tabs between the numbers"
@@ -109,4 +109,5 @@ impl NumbersError {
 }
 
 /// What to do about cells without a measurement.
-const HOLES: &str = "every cell needs a number; heights are filled with fill = \"harmonic\" beside the file";
+const HOLES: &str =
+    "every cell needs a number; heights, and they alone, are filled with fill = \"harmonic\" beside the file";

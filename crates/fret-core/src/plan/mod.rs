@@ -29,6 +29,7 @@ use extent::{COARSE, Unexpected, automatic_size, expected_contact, reaches_beyon
 pub use extent::{ExpectedContact, over_body};
 pub use left_out::LeftOut;
 pub use memory::of_stress as memory_of_stress;
+pub use moving::not_in_whole_cells;
 use moving::{in_whole_cells, is_displaced, with_room_to_move};
 pub use simplification::{LeaveOut, Simplification};
 use sliding_extent::with_room_to_slide;

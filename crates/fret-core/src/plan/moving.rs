@@ -49,23 +49,29 @@ pub fn rolls_along(case: &Case, axis: usize) -> bool {
 /// # Errors
 /// At the size of the grid, which the cells follow from.
 pub fn in_whole_cells(case: &Case, grid: &SurfaceGrid) -> Result<(), CaseError> {
+    not_in_whole_cells(case, grid)
+        .map_or(Ok(()), |(why, help)| Err(case.refuse_size(format!("grid.size: {why}"), help)))
+}
+
+/// Why increments are not by whole cells in the frame of a contact that rolls, and what to do; `None` where they are.
+pub fn not_in_whole_cells(case: &Case, grid: &SurfaceGrid) -> Option<(String, &'static str)> {
     let no_step =
         |stage: &&Stage| stage.steady && step_towards(stage.roll_direction, grid.spacing()).is_none();
     if let Some(Stage { name, roll_direction, .. }) = case.stages.iter().find(no_step) {
         let [dx, dy] = grid.spacing();
         let message = format!(
-            "grid.size: cells of {dx:?} x {dy:?} have no step of at most {MOST_CELLS} of them along each axis in roll_direction = {roll_direction:?} of stage {name:?}; a steady state is rolled to by whole cells"
+            "cells of {dx:?} x {dy:?} have no step of at most {MOST_CELLS} of them along each axis in roll_direction = {roll_direction:?} of stage {name:?}; a steady state is rolled to by whole cells"
         );
         let help = "roll along an axis, or on square cells in a direction such as [1, 1], [1, -2], [3, 2]; or turn bodies and creepage";
-        return Err(case.refuse_size(message, help));
+        return Some((message, help));
     }
-    let Some((stage, cells, [from_x, from_y])) = parts_of_cells(case, grid) else { return Ok(()) };
+    let (stage, cells, [from_x, from_y]) = parts_of_cells(case, grid)?;
     let message = format!(
-        "grid.size: an increment of stage {:?} rolls by {cells:.4} cells, after [{from_x:?}, {from_y:?}]; kinematics.frame = \"contact\" moves by whole cells",
+        "an increment of stage {:?} rolls by {cells:.4} cells, after [{from_x:?}, {from_y:?}]; kinematics.frame = \"contact\" moves by whole cells",
         case.stages[stage].name
     );
     let help = "roll = a whole number of cells times increments, with grid.size given; or frame = \"bodies\"";
-    Err(case.refuse_size(message, help))
+    Some((message, help))
 }
 
 /// The first stage an increment of which goes by a part of a cell in the frame of a contact that rolls, its cells, and the distance rolled

@@ -4,7 +4,7 @@
 use crate::fields::Scalar;
 
 /// A force whose range is so much of it is constant: what is left is rounding.
-const CONSTANT: f64 = 1e-12;
+pub(super) const CONSTANT: f64 = 1e-12;
 
 /// A point of a loop, at the end of an increment.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,6 +53,9 @@ impl<R: Scalar> LoopReading<R> {
             stiffness: None,
             slides: false,
         };
+        if is_constant {
+            return read;
+        }
         let flanks = [1.0, -1.0].map(|side| Flank::of(points, side));
         let Some(one) = flanks.iter().flatten().next() else {
             let (opening, stiffness) = (chord_width(points, force), secant(points, force));

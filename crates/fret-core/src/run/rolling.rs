@@ -20,6 +20,9 @@ const WHOLE: f64 = 1e-4;
 const MOST_ROUNDS: usize = 12;
 /// Two turns are one where they differ by this part of themselves: what half a step does to the place changes slip by less.
 const SAME_TURN: f64 = 1e-7;
+/// So they are where half a step makes of their difference less than this part of the residual that is accepted, of the approach: a turn that is
+/// none, by symmetry say, is found as what the solver leaves of it.
+const NO_TURN: f64 = 0.01;
 
 /// What lies beyond the maps of bodies whose places travel through the grid of a plan; `None` where none does.
 fn passing(plan: &Plan) -> Option<Outside> {
@@ -162,21 +165,25 @@ impl Rolling {
             return self.turned(solver, state, (load, turned), watch);
         }
         let by = self.way(state, load);
+        let spacing = self.grid.spacing();
+        let half_step = 0.5 * (by[0] * spacing[0]).hypot(by[1] * spacing[1]);
         let memory = solver.memory().clone();
         let (mut taken, mut work, mut turn) = (0.0, Work::default(), TurnByMoment::default());
+        let mut apart = 0.0_f64;
         for _ in 0..MOST_ROUNDS {
             let mut solved = self.turned(solver, state, (load, taken), watch)?;
             work += solved.work;
             let found = solved.state.twist - state.twist;
-            if by == [0.0; 2] || (found - taken).abs() <= SAME_TURN * found.abs() {
+            apart = (found - taken).abs() * half_step;
+            let none = NO_TURN * self.tolerance * solved.state.approach.abs();
+            if apart <= (SAME_TURN * found.abs() * half_step).max(none) {
                 solved.work = work;
                 return Ok(solved);
             }
             solver.restore_memory(memory.clone());
             taken = turn.next([taken, found], by);
         }
-        let apart = 0.5 * taken.abs() * by[0].hypot(by[1]);
-        Err(SolveError::Wanders { apart, rounds: MOST_ROUNDS })
+        Err(SolveError::Wanders { apart: apart / spacing[0].min(spacing[1]), rounds: MOST_ROUNDS })
     }
 
     /// In the frame of the bodies with the gap there, in that of the contact from the state before, carried back by the cells that the grid goes

@@ -358,7 +358,8 @@ impl<'a> ContactSolver<'a> {
     ) {
         self.carried = carried;
         self.moved = moved;
-        self.travel = cells[0].abs().max(cells[1].abs()).ceil() as usize;
+        let [nx, ny] = self.grid.cells();
+        self.travel = (cells[0].abs().max(cells[1].abs()).ceil() as usize).min(nx.max(ny));
     }
 
     /// In the next increments the bodies turn about a place [length], and the moment counts about it: the middle of the grid otherwise.

@@ -9,7 +9,7 @@ use super::errors::extrapolated;
 use super::quantities::{Quantity, StageQuantities};
 use super::resolutions::{ResolutionError, only_one_grid};
 use super::unbounded::pressure_is_unbounded;
-use super::variation::{Variation, fewest};
+use super::variation::{Variation, VariationError, fewest};
 use crate::history::concern::CELLS_IN_RADIUS;
 use crate::model::{Dimension, Integration, Shape};
 use crate::plan::{Coupling, Plan};
@@ -118,7 +118,10 @@ pub fn companion(plan: &Plan) -> Result<Plan, ResolutionError> {
         // Without friction the way does not matter, only where it ends.
         half.increments = plan.case.stages.iter().map(fewest).collect();
     }
-    half.planned(plan).map_err(|_| ResolutionError::TooCoarse(least, FEWEST_CELLS))
+    half.planned(plan).map_err(|error| match error {
+        VariationError::PartsOfCells(why) => ResolutionError::PartsOfCells(why),
+        _ => ResolutionError::TooCoarse(least, FEWEST_CELLS),
+    })
 }
 
 /// Whether the cells show the contact at the end of a stage well enough for error bars to hold.

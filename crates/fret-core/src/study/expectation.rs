@@ -192,7 +192,7 @@ fn trial(plan: &Plan) -> Option<Plan> {
     } else {
         own.cells
     };
-    let coarse = Variation { cells, ..own }.planned(plan).ok()?;
+    let coarse = Variation { cells, ..own.clone() }.planned(plan).or_else(|_| own.planned(plan)).ok()?;
     (coarse.grid.len() <= LARGEST_TRIAL).then_some(coarse)
 }
 

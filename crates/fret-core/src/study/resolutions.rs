@@ -63,6 +63,9 @@ pub enum ResolutionError {
          scan any grid takes its heights from the measured surface"
     )]
     Heights,
+    /// A contact that would roll by parts of cells on the auxiliary grid.
+    #[error("on half as many cells {0}")]
+    PartsOfCells(String),
     /// Friction given cell by cell.
     #[error("friction coefficients are given for every cell of one grid, and another grid has other cells")]
     Friction,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::case::{GridSize, Path, Stage};
 use crate::machine::memory::MemoryError;
 use crate::model::{GridError, SurfaceGrid};
-use crate::plan::Plan;
+use crate::plan::{Plan, not_in_whole_cells};
 
 /// Why a scene is not planned at another resolution.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -16,6 +16,9 @@ pub enum VariationError {
     /// Heights of the cells of one grid.
     #[error("heights that are given for every cell of one grid have no values on other cells")]
     Heights,
+    /// A contact that would roll by parts of cells, in whose frame the grid goes by whole ones.
+    #[error("{0}")]
+    PartsOfCells(String),
     /// Not enough memory.
     #[error(transparent)]
     Memory(#[from] MemoryError),
@@ -59,7 +62,8 @@ impl Variation {
     /// The same scene on the same grid area at this resolution, keeping no fields. The plan's size is not judged again.
     ///
     /// # Errors
-    /// When a side has no cells, heights are those of other cells alone, or there is no memory to plan so many.
+    /// When a side has no cells, heights are those of other cells alone, a contact in whose frame the grid goes would roll by parts of cells, or there
+    /// is no memory to plan so many.
     pub fn planned(&self, plan: &Plan) -> Result<Plan, VariationError> {
         let size = plan.grid.size();
         let spacing = [size[0] / self.cells[0] as f64, size[1] / self.cells[1] as f64]; // of a line contact the second is not looked at
@@ -77,6 +81,9 @@ impl Variation {
         case.stress = None;
         for (stage, increments) in case.stages.iter_mut().zip(&self.increments) {
             stage.increments = *increments;
+        }
+        if let Some((why, _)) = not_in_whole_cells(&varied.case, &varied.grid) {
+            return Err(VariationError::PartsOfCells(why));
         }
         varied.follow()?;
         Ok(varied)

@@ -208,6 +208,11 @@ pub fn is_unit(word: &str) -> bool {
     unit(word).is_some()
 }
 
+/// Whether a word is a unit that is known, of another quantity than one of a kind; pure numbers are units of all.
+pub fn is_of_another(word: &str, kind: &str) -> bool {
+    unit(word).is_some_and(|unit| ![[0, 0], dimensions(kind)].contains(&[unit.length, unit.force]))
+}
+
 /// The units of a case of which only the one is known that the quantity has.
 fn alone(units: &Units, [length, force]: [i32; 2]) -> Option<(Known, Known)> {
     let one = known(1.0, 0, 0, 0);

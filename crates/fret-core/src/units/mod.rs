@@ -7,7 +7,7 @@ mod prefixes;
 mod spelled;
 mod system;
 
-pub use conversion::{Conversion, UnitError, conversion, is_unit, known_units};
+pub use conversion::{Conversion, UnitError, conversion, is_of_another, is_unit, known_units};
 pub use heading::Heading;
 pub use spelled::symbol_of;
 pub use system::Units;

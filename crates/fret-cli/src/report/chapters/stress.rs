@@ -11,16 +11,21 @@ use crate::commands::stress_kinds::{kind_of_stress, stress_called};
 use crate::commands::stress_record::{FilmRecord, LargestRecord, ParameterRecord, StressRecord};
 use crate::drawing::{Chart, Curve, figure_of};
 use crate::figures::{bounded, capitalised};
-use crate::report::{Measured, Overview, chapter, grid, read_answer, side_by_side};
+use crate::report::{Measured, Overview, answer_beside, chapter, grid, side_by_side};
 use crate::table::{Cell, Columns};
+use fret_results::STRESS;
 
 /// Pictures that are shown, at most.
 const MOST_PICTURES: usize = 6;
 
-/// The chapter; nothing where there is no `stress.json`, or an unreadable one.
+/// The chapter; nothing where there is no `stress.json`.
 pub fn stress(view: &Overview<'_>) -> Markup {
-    let folder = view.results.path.join("stress");
-    let Ok(record) = read_answer::<StressRecord>(&folder.join("stress.json"), "") else { return html! {} };
+    let record: StressRecord = match answer_beside(&view.results.path, STRESS) {
+        Some(Ok(record)) => record,
+        Some(Err(why)) => return chapter("Stress below the surface", &html! { p class="small" { (why) } }),
+        None => return html! {},
+    };
+    let folder = view.results.path.join(STRESS[0]);
     let parameters: Vec<_> = record.fatigue.iter().flat_map(|fatigue| &fatigue.parameters).collect();
     let columns = Columns::<(&String, &ParameterRecord)>::new()
         .column("", "", |(name, _)| stress_called(name))
@@ -41,7 +46,9 @@ pub fn stress(view: &Overview<'_>) -> Markup {
     let body = html! {
         p { "In the " (record.body) " body, from the kept tractions. Maxima over all increments and depths:" }
         (grid(&LargestRecord::columns(stress_called), &record.largest, number))
-        @if let Some(why) = &record.stage_ends_alone { p class="small" { (capitalised(why)) "." } }
+        @for why in [&record.unfinished, &record.stage_ends_alone, &record.places_travel].into_iter().flatten() {
+            p class="small" { (capitalised(why)) "." }
+        }
         @if !parameters.is_empty() {
             p class="after" { "Fatigue parameters over the last cycle, under all cells:" }
             (grid(&columns, parameters, number))
