@@ -23,8 +23,8 @@ pub use crate::sweep::kinds::kind_of as kind_of_key;
 use crate::terminal;
 use crate::threads;
 use fret_results::{
-    CaseFile, ERROR_BARS, Ending, Origin, ResultFolder, RunRecord, Standing, Tally, Wish, read_record, resolved_path,
-    write_whole,
+    CaseFile, ERROR_BARS, Ending, Origin, ResultFolder, RunRecord, Standing, Tally, Wish, read_record,
+    resolved_path, write_whole,
 };
 pub use fret_results::{ReadInstrument, read_instruments_by};
 

@@ -68,7 +68,11 @@ impl Worn {
             None => (OF_BOTH, "both bodies together"),
         };
         let missing = |what: &str| {
-            let way_out = "run the case again with output.fields = [\"worn_depth\", ...]";
+            let way_out = if run.case().wear.is_some() {
+                "run the case again with output.fields = [\"worn_depth\", ...]"
+            } else {
+                "nothing wears in its case: [wear] coefficient = ..., or wear_coefficient in the layers"
+            };
             Failure::call(format!("{}: {what}", run.path.display()), way_out)
         };
         let Some(&increment) = run.fields.reached.last() else {

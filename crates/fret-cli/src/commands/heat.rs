@@ -37,7 +37,20 @@ pub fn heat(arguments: &HeatArguments) -> Result<Answer, Failure> {
     let folder = &arguments.folder;
     let mut run = Results::read(folder)?;
     if let Some(path) = &arguments.case {
-        run.record.plan.case.conduction = CaseFile::read(path)?.case(None)?.conduction;
+        let conducting = CaseFile::read(path)?.case(None)?;
+        let (own, other) = (run.case(), &conducting);
+        let differs = [("units", own.units != other.units), ("bodies", own.bodies != other.bodies)];
+        if let Some((what, _)) = differs.into_iter().find(|(_, differs)| *differs) {
+            return Err(Failure::call(
+                format!(
+                    "{}: its {what} are not those of the results in {}",
+                    path.display(),
+                    folder.display()
+                ),
+                "the case of the results, with thermal_conductivity or electrical_resistivity in its layers",
+            ));
+        }
+        run.record.plan.case.conduction = conducting.conduction;
     }
     if run.case().conduction.is_none() {
         let what = format!("{}: its case says nothing about conduction", folder.display());

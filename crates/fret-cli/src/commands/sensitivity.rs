@@ -140,6 +140,10 @@ fn refused(error: SensitivityError) -> Failure {
             error.to_string(),
             "fret sensitivity CASE without --by lists all numbers of the case by which there are derivatives",
         ),
+        SensitivityError::Objective { .. } => Failure::call(
+            error.to_string(),
+            "columns of history.csv and of cycles.csv are results, and of stresses those that fret stress tells with the constants of the case",
+        ),
         other => Failure::call(other.to_string(), "fret sensitivity --help tells what is covered"),
     }
 }

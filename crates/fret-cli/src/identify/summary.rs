@@ -61,15 +61,17 @@ pub fn summary(found: &Identification) -> String {
     lines.extend(in_words(found).map(|words| format!("  over the cycles        {words}")));
     lines.extend(repeated::in_words(found));
     let removed = &found.removed;
+    let told =
+        |value: f64, kind: &str| format!("{} {}", figure(value), found.unit_of(kind)).trim_end().to_owned();
     lines.push(format!(
         "  removed from the log: displacement offset {}, drift {} over the cycle{}; force offset {}",
-        figure(removed.displacement_offset),
-        figure(removed.displacement_drift),
+        told(removed.displacement_offset, "length"),
+        told(removed.displacement_drift, "length"),
         match removed.displacement_bend {
             0.0 => String::new(),
-            bend => format!(", which bends by {}", figure(bend)),
+            bend => format!(", which bends by {}", told(bend, "length")),
         },
-        figure(removed.force_offset)
+        told(removed.force_offset, "force")
     ));
     lines.extend(found.notes.iter().map(|note| format!("  note: {note}")));
     lines.join("\n")

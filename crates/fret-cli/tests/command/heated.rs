@@ -84,6 +84,15 @@ fn conductivities_come_from_another_case_where_the_results_have_none() {
         refused.err
     );
     assert_eq!(bench.fret(&["heat", "out", "--case", "case.toml"]).code, Some(0));
+    // conductors of other bodies, or in other units, are none of these results
+    bench.file("other.toml", &CASE.replace("young = 210e9", "young = 200e9"));
+    bench.file("units.toml", &format!("[units]\nlength = \"mm\"\nforce = \"N\"\n{CASE}"));
+    for (case, what) in
+        [("other.toml", "its bodies are not those"), ("units.toml", "its units are not those")]
+    {
+        let refused = bench.fret(&["heat", "out", "--case", case]);
+        assert!(refused.code == Some(1) && refused.err.contains(what), "{case}: {}", refused.err);
+    }
 }
 
 #[test]

@@ -136,6 +136,65 @@ fn no_file_but_an_earlier_answer_is_replaced() {
     for verb in ["check", "plan", "check"] {
         assert_eq!(bench.fret(&[verb, "case.toml", "-o", "answer.json"]).code, Some(0), "{verb}");
     }
+    // JSON of others, and what a run has written, are no earlier answers
+    assert_eq!(bench.fret(&["run", "case.toml", "-o", "out", "-q"]).code, Some(0));
+    bench.file("mine.json", "{\"a\": 1}");
+    for place in ["mine.json", "out/run.json", "out/fields.zarr/zarr.json"] {
+        let before = bench.text(place);
+        assert_eq!(bench.fret(&["check", "case.toml", "-o", place]).code, Some(1), "{place}");
+        assert_eq!(bench.text(place), before);
+    }
+}
+
+/// An export replaces an earlier one, all of it, and neither results nor files of others.
+#[test]
+fn an_export_replaces_an_earlier_one_alone() {
+    let bench = Bench::new("exports-over-files");
+    bench.file("often.toml", SPHERE).file("ends.toml", &SPHERE.replace("every = 5", ""));
+    for case in ["often", "ends"] {
+        assert_eq!(bench.fret(&["run", &format!("{case}.toml"), "-o", case, "-q"]).code, Some(0));
+    }
+    std::fs::create_dir(bench.folder.join("mine")).unwrap();
+    bench.file("mine/notes.csv", "mine");
+    for form in ["--csv", "--vtk"] {
+        for place in ["ends", "mine"] {
+            let refused = bench.fret(&["export", "often", form, "-o", place]);
+            assert!(
+                refused.code == Some(1) && refused.err.contains("no file of an export"),
+                "{}",
+                refused.err
+            );
+        }
+        let table = bench.text("ends/history.csv");
+        for case in ["often", "ends"] {
+            assert_eq!(bench.fret(&["export", case, form, "-o", "exported"]).code, Some(0));
+        }
+        let fields = std::fs::read_dir(bench.folder.join("exported")).unwrap().count() - 1;
+        // the ends of two stages
+        assert_eq!((fields, bench.text("ends/history.csv")), (2, table), "{form}");
+        std::fs::remove_dir_all(bench.folder.join("exported")).unwrap();
+    }
+}
+
+/// Stresses that were computed of earlier results in the folder are gone with them, and files of others beside them stay.
+#[test]
+fn answers_about_earlier_results_go_with_them() {
+    let bench = Bench::new("answers-of-earlier-results");
+    bench.file("case.toml", SPHERE);
+    let run = || assert_eq!(bench.fret(&["run", "case.toml", "-o", "out", "-q"]).code, Some(0));
+    run();
+    assert_eq!(bench.fret(&["stress", "out", "--depths", "5e-6"]).code, Some(0));
+    bench
+        .file("out/stress/notes.txt", "mine")
+        .file("case.toml", &SPHERE.replace("radius = 10e-3", "radius = 20e-3"));
+    run();
+    assert_eq!(bench.fret(&["report", "out"]).code, Some(0));
+    assert!(!bench.text("out/report.html").contains("Stress below the surface"));
+    assert_eq!(bench.text("out/stress/notes.txt"), "mine");
+    // one that cannot be read is told, with what to do
+    bench.file("out/stress/stress.json", "{");
+    assert_eq!(bench.fret(&["report", "out"]).code, Some(0));
+    assert!(bench.text("out/report.html").contains("run fret stress again"));
 }
 
 /// Which files or folders are written, and the time taken, say all verbs; the files lie where the call wants them.

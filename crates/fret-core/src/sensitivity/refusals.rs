@@ -16,13 +16,19 @@ pub(super) fn check(plan: &Plan) -> Result<(), SensitivityError> {
     let without = "take the derivatives without it";
     // Where a half-space repeats, nothing else moves along the normal.
     let repeats = case.periodic.is_both() && uniform_response(&case.bodies).is_none();
+    let wears = |how: &dyn Fn(&WearRule) -> bool| case.wear.as_ref().is_some_and(how);
     let moves = |stage: &Stage| stage.normal.as_ref().is_some_and(StageControl::is_motion);
     let by_mean_gap = repeats && case.stages.iter().any(moves);
     let refusals = [
         (
-            wears_otherwise(case),
-            "wear.thinning_tolerance and wear.debris.stiffness",
-            "leave them out: layers that wear and debris that does not give have derivatives",
+            wears(&|wear| wear.thinning_tolerance.is_some()),
+            "wear.thinning_tolerance",
+            "leave it out: layers that wear without thinning have derivatives",
+        ),
+        (
+            wears(&|wear| wear.debris.is_some_and(|debris| debris.stiffness.is_some())),
+            "wear.debris.stiffness",
+            "leave it out: debris that does not give has derivatives",
         ),
         (case.hardness.is_some(), "hardness", without),
         (plan.moves, "kinematics.displacement = \"finite\"", without),
@@ -44,12 +50,6 @@ pub(super) fn check(plan: &Plan) -> Result<(), SensitivityError> {
         Some((_, key, advice)) => Err(SensitivityError::NotCovered { key: key.to_owned(), advice }),
         None => Ok(()),
     }
-}
-
-/// Whether worn surfaces respond otherwise than those before.
-fn wears_otherwise(case: &Case) -> bool {
-    let gives = |wear: &WearRule| wear.debris.is_some_and(|debris| debris.stiffness.is_some());
-    case.wear.as_ref().is_some_and(|wear| wear.thinning_tolerance.is_some() || gives(wear))
 }
 
 /// Whether the numbers and the results that are asked for have derivatives with the simplifications of a plan.
