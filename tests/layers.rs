@@ -276,6 +276,18 @@ fn no_files_import_each_other_in_a_circle() {
     assert!(found.is_empty(), "files that import each other: {found:#?}");
 }
 
+/// Transforms, pictures and the reader of tables know no mechanics, and need nothing of this project.
+#[test]
+fn crates_without_mechanics_need_none_of_ours() {
+    for name in ["fret-drawing", "fret-fft", "fret-table"] {
+        let manifest = fs::read_to_string(repository().join("crates").join(name).join("Cargo.toml")).unwrap();
+        let dependencies =
+            manifest.split("\n[").find_map(|table| table.strip_prefix("dependencies]\n")).unwrap();
+        let ours: Vec<&str> = dependencies.lines().filter(|line| line.starts_with("fret")).collect();
+        assert!(ours.is_empty(), "{name} needs {ours:?}");
+    }
+}
+
 #[test]
 fn every_way_to_name_another_file_is_read() {
     let text = "use super::one::{Two, three::Four}; pub(crate) use child::Five as Six; #[cfg(test)] use crate::not_me::A;

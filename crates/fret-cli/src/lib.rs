@@ -5,7 +5,6 @@
 mod arguments;
 mod commands;
 mod defect;
-mod drawing;
 pub mod embedded;
 mod estimate;
 mod explore;

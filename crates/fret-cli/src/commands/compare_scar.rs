@@ -13,13 +13,13 @@ use serde_json::{Value, json};
 use super::columns_asked::asked;
 use super::identify::content;
 use crate::arguments::CompareScarArguments;
-use crate::drawing::{Chart, Curve, Label};
 use crate::failure::Failure;
 use crate::figures::{figure, figure_in, indented};
 use crate::identify::name_of;
 use crate::manner::place_of_answer;
 use crate::table::{Cell, Columns};
 use crate::terminal::Answer;
+use fret_drawing::{Chart, Curve, Label};
 use fret_results::Results;
 
 /// Fields that hold a wear depth: of each body where they move against each other, or of both together.

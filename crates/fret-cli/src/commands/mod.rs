@@ -21,6 +21,7 @@ pub mod report;
 pub mod run;
 pub mod run_observer;
 pub mod schema;
+pub mod section;
 pub mod sensitivity;
 pub mod shells;
 pub mod stress;

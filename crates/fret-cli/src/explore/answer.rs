@@ -16,12 +16,13 @@ use serde_json::{Value, json};
 
 use super::question::{Question, Values, Written};
 use super::stress::stress_below;
-use crate::drawing::{Chart, Curve, Map, SURFACE, Section};
+use crate::commands::section::Section;
 use crate::failure::Failure;
 use crate::figures::percent;
 use crate::manner::Listener;
 use crate::report::{Measured, Part, Window, legend_of_zones, number};
 use crate::sweep::{Path, direction, last_cycle};
+use fret_drawing::{Chart, Curve, Map};
 
 /// Room around the contact in a picture, over its width.
 const ROOM: f64 = 0.12;
@@ -348,7 +349,7 @@ impl<'a> View<'a> {
             range: None,
         };
         let figure =
-            section.drawing(SURFACE)?.map_or_else(String::new, |drawing| drawing.in_page().into_string());
+            section.drawing(Map::WIDTH)?.map_or_else(String::new, |drawing| drawing.in_page().into_string());
         let mut told = vec![
             ["mises".to_owned(), "max von Mises stress".to_owned(), self.number(most, "pressure")],
             ["depth".to_owned(), format!("its depth, {} body", below.body), self.number(depth, "length")],

@@ -5,7 +5,7 @@ use fret_core::identify::{Cycle, Identification, Quantities};
 use maud::{Markup, html};
 use serde_json::{Value, json};
 
-use crate::drawing::{Chart, Curve, Label, Stroke};
+use fret_drawing::{Chart, Curve, Label, Stroke};
 
 /// Single cycles that a change of the sliding condition must explain: fewer, one after the other, are noise at the border.
 const CHANGE: usize = 5;

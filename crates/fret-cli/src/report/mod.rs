@@ -17,13 +17,13 @@ mod written;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::drawing;
 use crate::failure::Failure;
 pub use chapters::{json_in_page, legend_of_zones};
+use fret_drawing::Drawing;
 use fret_results::Results;
 pub use html::{chapter, deviation, given, grid, number, pairs, short, side_by_side, table};
 pub use measured::Measured;
-pub use overview::Overview;
+pub use overview::{Overview, joined};
 pub use rolled::Rolled;
 pub use sweep::called;
 pub use window::{Part, Section, Window};
@@ -68,7 +68,7 @@ pub fn page_with(title: &str, content: &Markup, parts: &PageParts<'_>) -> String
                 meta http-equiv="Content-Security-Policy" content=(parts.policy);
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (title) }
-                style { (PreEscaped(drawing::STYLE)) (PreEscaped(STYLE)) (PreEscaped(parts.style)) }
+                style { (PreEscaped(Drawing::STYLE)) (PreEscaped(STYLE)) (PreEscaped(parts.style)) }
             }
             body { main { (content) } script { (PreEscaped(parts.script)) } }
         }

@@ -7,7 +7,7 @@ use fret_core::study::{Loaded, NormalForm, TangentialForm};
 use fret_core::units::Units;
 
 use super::{Measured, Rolled};
-use crate::drawing::{Label, joined};
+use fret_drawing::Label;
 use fret_results::Results;
 
 /// Share of the largest force below which there is none.
@@ -40,6 +40,11 @@ pub struct Overview<'a> {
     pub rolled: Option<Rolled>,
     /// Increments of each stage: first, and one after the last.
     pub spans: Vec<[usize; 2]>,
+}
+
+/// Points by their places and heights.
+pub fn joined(x: &[f64], y: &[f64]) -> Vec<[f64; 2]> {
+    x.iter().zip(y).map(|(x, y)| [*x, *y]).collect()
 }
 
 impl<'a> Overview<'a> {

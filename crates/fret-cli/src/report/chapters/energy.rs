@@ -3,8 +3,8 @@
 use fret_core::study::{PartialSlip, TangentialForm};
 use maud::{Markup, html};
 
-use crate::drawing::{Chart, Curve, joined};
-use crate::report::{Measured, Overview, chapter, deviation, side_by_side, table};
+use crate::report::{Measured, Overview, chapter, deviation, joined, side_by_side, table};
+use fret_drawing::{Chart, Curve};
 
 /// Cycles listed one by one.
 const MOST_CYCLES: usize = 12;

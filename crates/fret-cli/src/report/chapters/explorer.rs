@@ -9,10 +9,10 @@ use super::loading::loop_curves;
 use super::moment::{Ground, Moment, largest};
 use super::sections::seen;
 use super::zones::legend;
-use crate::drawing::{Chart, Curve, Frame, Map, Stroke, ends, figure_of, joined};
 use crate::failure::Failure;
 use crate::figures::percent;
-use crate::report::{Measured, Overview, chapter};
+use crate::report::{Measured, Overview, chapter, joined};
+use fret_drawing::{Axis, Chart, Curve, Drawing, Frame, Map, Stroke};
 
 /// Increments that the slider shows, at most, and at least where there are so many.
 const MOST: usize = 120;
@@ -104,7 +104,7 @@ impl Ground<'_> {
         let what = format!("{} over {}", labels[1].name, labels[0].name);
         let here = points.get(now.increment).copied().unwrap_or([f64::NAN; 2]);
         let curves = loop_curves(self.view).into_iter().map(|curve| Curve { name: None, ..curve }).collect();
-        let range = |axis: usize| Some(ends(points.iter().map(|point| point[axis])));
+        let range = |axis: usize| Some(Axis::ends(points.iter().map(|point| point[axis])));
         Chart {
             here: Some((here, "here")),
             ranges: [range(0), range(1)],
@@ -188,7 +188,7 @@ impl Ground<'_> {
         let chart = Chart {
             ranges: [
                 Some([from - way, to + way]),
-                Some(ends(heights.map(|(_, height)| *height).filter(|height| height.is_finite()))),
+                Some(Axis::ends(heights.map(|(_, height)| *height).filter(|height| height.is_finite()))),
             ],
             ..Chart::new("surfaces along a line through the contact", axes, curves)
         };
@@ -210,7 +210,7 @@ impl Ground<'_> {
         let mut add =
             |what: &str, bar: Option<&str>, most: f64, below: Markup, caption: &str| -> Result<(), Failure> {
                 let drawing = map_of(place, what, bar, most).drawing()?.in_page();
-                figures.push(figure_of(&html! { (drawing) (below) }, caption));
+                figures.push(Drawing::captioned(&html! { (drawing) (below) }, caption));
                 place += 1;
                 Ok(())
             };

@@ -106,6 +106,6 @@ impl<'a> Ground<'a> {
     /// A field in false colours where there is contact.
     fn image(&self, field: &Array2<f64>, pressure: &Array2<f64>, most: f64) -> Result<String, Failure> {
         let value = |cell: [usize; 2]| if pressure[cell] > 0.0 { field[cell] } else { f64::NAN };
-        self.window.part().values([0.0, most], value)
+        Ok(self.window.part().values([0.0, most], value)?)
     }
 }

@@ -3,9 +3,9 @@
 use maud::{Markup, html};
 
 use super::view::{View, called, spoken};
-use crate::drawing::{Chart, Curve};
 use crate::report::{Measured, chapter, pairs};
 use crate::sweep::Path;
+use fret_drawing::{Chart, Curve};
 
 /// Points that stand in the page each with its loop, at the most: links lead to these.
 pub const MOST_LOOPS: usize = 500;

@@ -7,10 +7,10 @@ use maud::{Markup, html};
 use serde_json::{Value, json};
 
 use super::view::{View, called, spoken};
-use crate::drawing::{Chart, Curve, Label, Stroke};
 use crate::figures::{bounded, figure};
 use crate::report::{Measured, chapter, grid, side_by_side};
 use crate::sweep::{Quantities, QuantityRecord, SpreadRecord};
+use fret_drawing::{Chart, Curve, Label, Stroke};
 
 /// Numbers that vary by less, relative, do not.
 const ROUNDING: f64 = 1e-9;

@@ -8,7 +8,6 @@ use fret_core::units::Units;
 use serde_json::Value;
 
 use crate::commands::stress_kinds::stress_called;
-use crate::drawing::Label;
 use crate::failure::Failure;
 use crate::report::{Measured, given, number, read_answer};
 use crate::sweep::columns::{SummaryColumn, columns};
@@ -16,6 +15,7 @@ use crate::sweep::key::words_of;
 use crate::sweep::kinds::kind_of;
 use crate::sweep::record::PointOfSweep;
 use crate::sweep::{Answer, Kept, POINTS, RECORD, SpreadRecord, SweepRecord, UNCERTAINTY};
+use fret_drawing::Label;
 
 /// What to do where a file of a sweep cannot be read.
 const AGAIN: &str = "run `fret sweep` again: finished points are not solved again";
