@@ -10,15 +10,15 @@ use fret_core::study::{StageQuantities, companion};
 use serde_json::{Value, json};
 
 pub use crate::arguments::StudyRequest;
-use crate::commands::preparation::Wanted;
-use crate::commands::run;
-use crate::commands::study::{Question, studied};
 use crate::defect;
-use crate::estimate::{Estimate, NoBars};
 pub use crate::failure::Failure;
 pub use crate::identify::Request as IdentifyRequest;
 pub use crate::identify::indentation::IndentationAsked;
 use crate::manner::Manner;
+pub use crate::run::Guest;
+use crate::run::{self, Estimate, NoBars, Wanted};
+use crate::study::question::Question;
+use crate::study::studied::studied;
 pub use crate::sweep::kinds::kind_of as kind_of_key;
 use crate::terminal;
 use crate::threads;
@@ -27,8 +27,6 @@ use fret_results::{
     write_whole,
 };
 pub use fret_results::{ReadInstrument, read_instruments_by};
-
-pub use crate::commands::run_observer::Guest;
 
 fn origin_in_memory(start: Option<Arc<Start>>) -> Option<Origin> {
     start.map(|start| Origin { start, results: "a state in memory".to_owned(), increment: 0 })

@@ -16,11 +16,11 @@ use serde_json::{Value, json};
 
 use super::question::{Question, Values, Written};
 use super::stress::stress_below;
-use crate::commands::section::Section;
 use crate::failure::Failure;
 use crate::figures::percent;
 use crate::manner::Listener;
 use crate::report::{Measured, Part, Window, legend_of_zones, number};
+use crate::stress::Section;
 use crate::sweep::{Path, direction, last_cycle};
 use fret_drawing::{Chart, Curve, Map};
 

@@ -5,9 +5,9 @@ use std::ops::Range;
 use fret_core::history::{CycleRecord, History, StepRecord};
 use serde::{Deserialize, Serialize};
 
-use crate::commands::heat_record::HeatRecord;
-use crate::commands::stress_record::StressRecord;
 use crate::failure::{Failure, FailureRecord};
+use crate::heat::HeatRecord;
+use crate::stress::StressRecord;
 
 /// What a case asks for after it is solved.
 #[derive(Debug, Default)]

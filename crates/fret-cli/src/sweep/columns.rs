@@ -6,9 +6,9 @@ use fret_core::subsurface::Measure;
 use fret_core::subsurface::fatigue::Parameter;
 use serde_json::{Value, json};
 
-use crate::commands::heat_record::{HeatRecord, Resistance};
-use crate::commands::stress_kinds::kind_of_stress;
-use crate::commands::stress_record::{Bounded, CrackRecord, FilmRecord, ParameterRecord, StressRecord};
+use crate::heat::{HeatRecord, Resistance};
+use crate::stress::kind_of_stress;
+use crate::stress::{Bounded, CrackRecord, FilmRecord, ParameterRecord, StressRecord};
 use crate::sweep::answer::{Answer, Numbers};
 
 /// Columns of the last increment.
@@ -224,7 +224,7 @@ fn told<R>(column: &Column<R>, record: &R) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::commands::stress_record::CrackFollowed;
+    use crate::stress::record::CrackFollowed;
 
     #[test]
     fn the_summary_has_columns_of_the_tables() {

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::commands::heat_record::HeatRecord;
+use crate::heat::HeatRecord;
 use crate::report::{Measured, Overview, chapter, pairs, read_answer};
 
 /// The chapter; nothing where there is no `heat.json`, or an unreadable one.

@@ -7,10 +7,10 @@ use base64::prelude::{BASE64_STANDARD, Engine};
 use fret_core::units::Units;
 use maud::{Markup, html};
 
-use crate::commands::stress_kinds::{kind_of_stress, stress_called};
-use crate::commands::stress_record::{FilmRecord, LargestRecord, ParameterRecord, StressRecord};
 use crate::figures::{bounded, capitalised};
 use crate::report::{Measured, Overview, chapter, grid, read_answer, side_by_side};
+use crate::stress::{FilmRecord, LargestRecord, ParameterRecord, StressRecord};
+use crate::stress::{kind_of_stress, stress_called};
 use crate::table::{Cell, Columns};
 use fret_drawing::{Chart, Curve, Drawing};
 

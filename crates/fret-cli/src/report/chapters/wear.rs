@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::report::chapters::sections::seen;
 use crate::report::chapters::surfaces::OWN_DEPTHS;
 use crate::report::{Measured, Overview, Section, Window, chapter, pairs, side_by_side};
-use crate::summary::volumes_by_layer;
+use crate::run::volumes_by_layer;
 use fret_drawing::{Chart, Curve, Drawing, Map};
 
 /// Sections, at most.

@@ -7,9 +7,9 @@ use fret_core::model::Dimension;
 use fret_core::units::Units;
 use serde_json::Value;
 
-use crate::commands::stress_kinds::stress_called;
 use crate::failure::Failure;
 use crate::report::{Measured, given, number, read_answer};
+use crate::stress::stress_called;
 use crate::sweep::columns::{SummaryColumn, columns};
 use crate::sweep::key::words_of;
 use crate::sweep::kinds::kind_of;
