@@ -12,7 +12,7 @@ use super::friction::{friction, of_stages};
 use super::hardness::hardness;
 use super::interface::sliding_coatings;
 use super::judge::Judge;
-use super::kinematics::{Concerned, kinematics};
+use super::kinematics::kinematics;
 use super::known::Known;
 use super::line::{datum, line, motion_without_datum};
 use super::mean_gap::mean_plane;
@@ -83,8 +83,9 @@ pub(super) fn case(
         laws: laws.as_deref(),
         stages: stages.as_deref(),
     };
-    let (loading, periodic) = (known.loading(), known.periodic());
-    let friction_evolution = evolution(&mut judge, file.friction.as_ref(), friction.as_ref(), loading);
+    let periodic = known.periodic();
+    let friction_evolution =
+        evolution(&mut judge, file.friction.as_ref(), friction.as_ref(), known.loading());
     let datum = datum(&mut judge, &known);
     let beyond = beyond(&mut judge, &file.grid, size);
     if dimension == Dimension::Line {
@@ -106,8 +107,8 @@ pub(super) fn case(
         let friction = (laws.as_slice(), strongest.as_ref());
         sliding(&mut judge, friction, &file.load, stages, tolerance.unwrap_or(TOLERANCE));
     }
-    let kinematics = kinematics(&mut judge, &Concerned { file: &file, loading });
-    rolling(&mut judge, &file, loading, (kinematics, profile.as_ref(), laws.as_deref()));
+    let kinematics = kinematics(&mut judge, &known);
+    rolling(&mut judge, &known, kinematics);
     let hardness = hardness(&mut judge, &known, kinematics);
     let wear = wear(&mut judge, &known, kinematics);
     let output = output(&mut judge, file.output.as_ref());

@@ -1,18 +1,13 @@
 //! The judgement of maps of heights and friction that travel through a grid which goes with a contact that rolls.
 
-use super::control_keys::Given;
-use super::file::CaseFile;
 use super::judge::Judge;
-use super::misfits::Loading;
-use crate::model::{CoulombFriction, Kinematics, Profile};
+use super::known::Known;
+use super::loading::Prescribed;
+use crate::model::Kinematics;
 
 /// Refuses them where they leave no steady state, or nothing says what lies beyond them; and what lies beyond maps that are none.
-pub(super) fn maps_that_travel(
-    judge: &mut Judge,
-    file: &CaseFile,
-    (files, _): Loading<'_>,
-    (kinematics, profile, laws): (Kinematics, Option<&Profile>, Option<&[&CoulombFriction]>),
-) {
+pub(super) fn maps_that_travel(judge: &mut Judge, known: &Known<'_>, kinematics: Kinematics) {
+    let Known { file, profile, laws, .. } = *known;
     let friction = laws.is_some_and(|laws| laws.iter().any(|law| law.is_map()));
     let heights = profile.is_some_and(|profile| !profile.heights.is_empty());
     let maps = [(friction, "a friction map"), (heights, "topography")];
@@ -25,9 +20,8 @@ pub(super) fn maps_that_travel(
             "leave it out",
         );
     }
-    let steady = files.iter().find(|file| file.value.controls.are_steady());
-    let steady = steady.and_then(|file| file.value.controls.of("roll"));
-    let (span, why, help) = if let Some(steady) = steady.map(Given::span) {
+    let steady = known.loading().stages().find(|stage| stage.file.controls.are_steady());
+    let (span, why, help) = if let Some(steady) = steady.as_ref().map(Prescribed::roll) {
         (
             steady,
             "roll = \"steady\": places that differ pass by, and nothing becomes steady",
