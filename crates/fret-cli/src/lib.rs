@@ -26,6 +26,7 @@ mod table;
 mod templates;
 mod terminal;
 mod threads;
+mod way;
 
 use std::ffi::OsString;
 use std::time::Instant;

@@ -23,7 +23,7 @@ use fret_drawing::Drawing;
 use fret_results::Results;
 pub use html::{chapter, deviation, given, grid, number, pairs, short, side_by_side, table};
 pub use measured::Measured;
-pub use overview::{Overview, joined};
+pub use overview::{Overview, friction_in, joined};
 pub use rolled::Rolled;
 pub use sweep::called;
 pub use window::{Part, Section, Window};

@@ -16,7 +16,7 @@ pub mod record;
 pub mod setting;
 mod spread;
 
-pub use answer::{Answer, Counts, Path, direction, last_cycle};
+pub use answer::{Answer, Counts, Path, last_cycle};
 pub use board::Board;
 pub use folder::{Kept, POINTS, RECORD, SweepFolder, UNCERTAINTY};
 pub use question::{Point, Question};

@@ -6,11 +6,11 @@ use maud::{Markup, PreEscaped, html};
 use serde_json::{Value, json};
 
 use super::loading::loop_curves;
-use super::moment::{Ground, Moment, largest};
+use super::moment::{Ground, Moment};
 use super::sections::seen;
 use super::zones::legend;
 use crate::failure::Failure;
-use crate::figures::percent;
+use crate::figures::{largest, percent};
 use crate::report::{Measured, Overview, chapter, joined};
 use fret_drawing::{Axis, Chart, Curve, Drawing, Frame, Map, Stroke};
 
