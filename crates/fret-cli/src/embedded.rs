@@ -12,8 +12,7 @@ use serde_json::{Value, json};
 pub use crate::arguments::StudyRequest;
 use crate::defect;
 pub use crate::failure::Failure;
-pub use crate::identify::Request as IdentifyRequest;
-pub use crate::identify::indentation::IndentationAsked;
+pub use crate::identify::{IndentationAsked, Question as IdentifyQuestion, Request as IdentifyRequest};
 use crate::manner::Manner;
 pub use crate::run::Guest;
 use crate::run::{self, Estimate, NoBars, Wanted};
@@ -153,28 +152,16 @@ pub fn study(
     Ok(json!(studied((&plan.case.title, plan), question, None, &say, guest)?.record))
 }
 
-/// Constants of a model from a measured log, as `identified.json` has them, and the page with its pictures.
+/// Constants of a model from measured fretting loops, or numbers of a case from an indentation, as `identified.json` has them, and the page with its
+/// pictures.
 ///
 /// # Errors
-/// When the log cannot be read as fretting loops of such a case, or the case cannot be solved.
+/// When the log cannot be read as what is asked about, or the case cannot be solved.
 pub fn identify(
     log: (&str, &[u8]),
     case_file: &CaseFile,
-    request: &IdentifyRequest,
+    question: &IdentifyQuestion,
 ) -> Result<(Value, String), Failure> {
-    let answer = defect::caught(|| crate::identify::identify(log, case_file, request))?;
-    Ok((answer.record, answer.page))
-}
-
-/// Numbers of a case from a measured indentation, as `identified.json` has them, and the page with its pictures.
-///
-/// # Errors
-/// When the log cannot be read as load over depth, or the case cannot be solved.
-pub fn identify_indentation(
-    log: (&str, &[u8]),
-    case_file: &CaseFile,
-    asked: &IndentationAsked,
-) -> Result<(Value, String), Failure> {
-    let answer = defect::caught(|| crate::identify::indentation::indentation(log, case_file, asked))?;
+    let answer = defect::caught(|| crate::identify::identify(log, case_file, question))?;
     Ok((answer.record, answer.page))
 }

@@ -3,15 +3,14 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use fret_core::identify;
+use fret_core::identify::{IndentationRequest, Part, Request as LoopsAsked};
 use fret_core::measured::Asked;
 
 use super::columns_asked::asked;
 use crate::arguments::IdentifyArguments;
 use crate::failure::Failure;
 use crate::figures::counted;
-use crate::identify::indentation::{IndentationAsked, indentation};
-use crate::identify::{Identified, Request, identify as identified, name_of};
+use crate::identify::{self, Identified, IndentationAsked, Question, Request, name_of};
 use crate::terminal::Answer;
 use fret_results::{CaseFile, folder_for_answers, stem};
 
@@ -33,7 +32,7 @@ pub fn identify(arguments: &IdentifyArguments) -> Result<Answer, Failure> {
     } else {
         let (asked, strict) = (asked(EXAMPLE)?, arguments.strict);
         let every = arguments.every.map(|every| every as usize);
-        let log = identify::Request { asked, cycle: arguments.cycle, every, strict };
+        let log = LoopsAsked { asked, cycle: arguments.cycle, every, strict };
         Question::Loops(Request { log, key: one_key(&arguments.fit)? })
     };
     let case_file = CaseFile::read(&arguments.case)?;
@@ -42,10 +41,8 @@ pub fn identify(arguments: &IdentifyArguments) -> Result<Answer, Failure> {
     let folder = folder_for_answers(&folder, &[IDENTIFIED], "an identification")?;
     arguments.manner.step(|| format!("read: {name}, {}", counted(bytes.len(), "byte")));
     let log = (name.as_str(), &bytes[..]);
-    let Identified { record, text, page, tables } = pool.install(|| match question {
-        Question::Loops(request) => identified(log, &case_file, &request),
-        Question::Indentation(request) => indentation(log, &case_file, &request),
-    })?;
+    let Identified { record, text, page, tables } =
+        pool.install(|| identify::identify(log, &case_file, &question))?;
     let manner = &arguments.manner;
     manner.write_json(&folder.join(IDENTIFIED), &record)?;
     manner.write(&folder.join("identified.html"), page.as_bytes())?;
@@ -54,12 +51,6 @@ pub fn identify(arguments: &IdentifyArguments) -> Result<Answer, Failure> {
     }
     let text = format!("{text}\nwritten to {}", folder.display());
     Ok(Answer::new(record, text))
-}
-
-/// What a log is asked.
-enum Question {
-    Loops(Request),
-    Indentation(IndentationAsked),
 }
 
 fn one_key(keys: &[String]) -> Result<Option<String>, Failure> {
@@ -77,7 +68,7 @@ fn one_key(keys: &[String]) -> Result<Option<String>, Failure> {
 }
 
 fn indentation_asked(arguments: &IdentifyArguments, asked: Asked) -> Result<IndentationAsked, Failure> {
-    let part = arguments.part.as_deref().and_then(identify::Part::named).unwrap_or_default();
+    let part = arguments.part.as_deref().and_then(Part::named).unwrap_or_default();
     if arguments.fit.is_empty() && !arguments.frame {
         return Err(Failure::call(
             "--indentation: nothing is fitted but the depth at first touch",
@@ -85,7 +76,7 @@ fn indentation_asked(arguments: &IdentifyArguments, asked: Asked) -> Result<Inde
         ));
     }
     let (touch, frame, strict) = (arguments.touch, arguments.frame, arguments.strict);
-    let request = identify::IndentationRequest { asked, part, touch, frame, strict };
+    let request = IndentationRequest { asked, part, touch, frame, strict };
     Ok(IndentationAsked { request, keys: arguments.fit.clone() })
 }
 

@@ -5,8 +5,9 @@ use maud::{Markup, html};
 use serde_json::{Value, json};
 
 use super::constant::{cell, cells, of_constant};
+use super::identified::Identified;
+use super::keys::{case_with, dotted, value_of};
 use super::record::rows_in_words;
-use super::{Identified, case_with, dotted, value_of};
 use crate::failure::Failure;
 use crate::figures::{counted, figure};
 use crate::report::{number, table, whole_page};

@@ -4,6 +4,7 @@
 //! From the ground: `html` (numbers and parts), `measured` (numbers with their units), `rolled` (how far it rolled), `overview` (the run as a whole, and the closed forms that speak about it), `window` (what of
 //! the grid is shown), `chapters` (what the page tells), and the page itself here; `sweep` and `study` are pages of their own.
 
+mod answers;
 mod chapters;
 mod html;
 mod literature;
@@ -13,11 +14,11 @@ mod rolled;
 pub mod study;
 pub mod sweep;
 mod window;
-mod written;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::failure::Failure;
+pub use answers::read_answer;
 pub use chapters::{json_in_page, legend_of_zones};
 use fret_drawing::Drawing;
 use fret_results::Results;
@@ -27,7 +28,6 @@ pub use overview::{Overview, friction_in, joined};
 pub use rolled::Rolled;
 pub use sweep::called;
 pub use window::{Part, Section, Window};
-pub use written::read_answer;
 
 /// The style of the page.
 const STYLE: &str = include_str!("page.css");
