@@ -13,6 +13,7 @@ mod figures;
 mod heat;
 mod identify;
 mod interrupt;
+mod log_file;
 mod loop_numbers;
 mod manner;
 mod plan_words;

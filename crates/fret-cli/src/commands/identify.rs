@@ -1,16 +1,15 @@
 //! `fret identify`: constants of a model from measured fretting loops, or from an indentation.
 
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use fret_core::identify::{IndentationRequest, Part, Request as LoopsAsked};
 use fret_core::measured::Asked;
 
-use super::columns_asked::asked;
-use crate::arguments::IdentifyArguments;
+use crate::arguments::{IdentifyArguments, columns_asked};
 use crate::failure::Failure;
 use crate::figures::counted;
-use crate::identify::{self, Identified, IndentationAsked, Question, Request, name_of};
+use crate::identify::{self, Identified, IndentationAsked, Question, Request};
+use crate::log_file::{content, name_of};
 use crate::terminal::Answer;
 use fret_results::{CaseFile, folder_for_answers, stem};
 
@@ -19,14 +18,12 @@ const IDENTIFIED: &str = "identified.json";
 /// How columns and units are chosen.
 const EXAMPLE: &str = "displacement=...,force=...";
 const EXAMPLE_OF_DEPTH: &str = "depth=...,force=...";
-/// Bytes of a log, at the most.
-const MOST_BYTES: u64 = 1 << 30;
 
 /// Identifies a log by a case; writes what was found beside it.
 pub fn identify(arguments: &IdentifyArguments) -> Result<Answer, Failure> {
     let name = name_of(&arguments.log);
     let bytes = content(&arguments.log)?;
-    let asked = |example: &str| asked(&arguments.columns, &arguments.units, [example, example]);
+    let asked = |example: &str| columns_asked(&arguments.columns, &arguments.units, [example, example]);
     let question = if arguments.indentation {
         Question::Indentation(indentation_asked(arguments, asked(EXAMPLE_OF_DEPTH)?)?)
     } else {
@@ -78,31 +75,6 @@ fn indentation_asked(arguments: &IdentifyArguments, asked: Asked) -> Result<Inde
     let (touch, frame, strict) = (arguments.touch, arguments.frame, arguments.strict);
     let request = IndentationRequest { asked, part, touch, frame, strict };
     Ok(IndentationAsked { request, keys: arguments.fit.clone() })
-}
-
-/// The bytes of a log: an ordinary file, measured before it is read.
-///
-/// # Errors
-/// When it is none, or too long, or cannot be read.
-pub fn content(log: &Path) -> Result<Vec<u8>, Failure> {
-    let unreadable =
-        |why: String| Failure::call(format!("{}: {why}", name_of(log)), "a log is a text file with columns");
-    let found = std::fs::metadata(log).map_err(|error| unreadable(error.to_string()))?;
-    if !found.is_file() {
-        return Err(unreadable("no ordinary file".to_owned()));
-    }
-    if found.len() > MOST_BYTES {
-        return Err(unreadable(format!("{} bytes: more than {MOST_BYTES}", found.len())));
-    }
-    if found.len() == 0 {
-        // Not read: some files of the kernel say so too, and wait for ever.
-        return Ok(Vec::new());
-    }
-    // A file may grow while it is read.
-    let mut bytes = Vec::new();
-    let file = std::fs::File::open(log).map_err(|error| unreadable(error.to_string()))?;
-    file.take(MOST_BYTES).read_to_end(&mut bytes).map_err(|error| unreadable(error.to_string()))?;
-    Ok(bytes)
 }
 
 /// The folder for the answer, when none is named.

@@ -1,7 +1,6 @@
 //! The verbs of `fret`, one file each.
 
 pub mod check;
-mod columns_asked;
 pub mod compare_scar;
 pub mod explain;
 pub mod explore;

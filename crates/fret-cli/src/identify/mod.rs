@@ -15,8 +15,6 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use std::path::Path;
-
 use crate::failure::Failure;
 use fret_results::CaseFile;
 pub use identified::Identified;
@@ -45,9 +43,4 @@ pub fn identify(
         Question::Loops(request) => loops::loops(log, case_file, request),
         Question::Indentation(asked) => indentation::indentation(log, case_file, asked),
     }
-}
-
-/// The name of a log in messages and results.
-pub fn name_of(path: &Path) -> String {
-    path.display().to_string()
 }

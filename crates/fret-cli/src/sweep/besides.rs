@@ -9,8 +9,8 @@ use fret_core::plan::Plan;
 
 use super::answer::Besides;
 use super::question::Point;
-use crate::embedded::{Solved, save};
 use crate::failure::{Failure, Unwritten};
+use crate::run::{Solved, save};
 use crate::{heat, stress};
 use fret_results::Wish;
 

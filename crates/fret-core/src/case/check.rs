@@ -157,18 +157,16 @@ fn judge_of<'a>(file: &CaseFile, attachments: Attachments<'a>, places: &'a Place
     let dimension = Dimension::from(matches!(&file.grid.cells.value, CellsFile::Line(_)));
     let displacement = file.kinematics.as_ref().and_then(|given| given.value.displacement.as_ref());
     let moves = displacement.is_some_and(|given| given.value == Displacement::Finite);
-    let (mistakes, force_unit) = (Vec::new(), String::new());
-    let (mean_plane, by_mean_gap) = (Ok(0.0), Vec::new());
     let mut judge = Judge {
-        mistakes,
+        mistakes: Vec::new(),
         attachments,
         places,
-        force_unit,
+        force_unit: String::new(),
         units: None,
         dimension,
         moves,
-        mean_plane,
-        by_mean_gap,
+        mean_plane: Ok(0.0),
+        by_mean_gap: Vec::new(),
     };
     judge.units = file.units.as_ref().and_then(|file| declared_units(&mut judge, file));
     judge.force_unit = Units::after(judge.units.as_ref(), "force", dimension);

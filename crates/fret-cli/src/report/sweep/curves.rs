@@ -2,7 +2,8 @@
 
 use maud::{Markup, html};
 
-use super::view::{View, spoken};
+use super::view::View;
+use super::words::spoken;
 use crate::figures::capitalised;
 use crate::report::{chapter, side_by_side};
 use crate::sweep::columns::SummaryColumn;

@@ -2,7 +2,8 @@
 
 use maud::{Markup, html};
 
-use super::view::{View, called, spoken};
+use super::view::View;
+use super::words::{called, spoken};
 use crate::report::{Measured, chapter, pairs};
 use crate::sweep::Path;
 use fret_drawing::{Chart, Curve};

@@ -6,7 +6,8 @@ use fret_core::uncertainty::{Distribution, Sensitivity};
 use maud::{Markup, html};
 use serde_json::{Value, json};
 
-use super::view::{View, called, spoken};
+use super::view::View;
+use super::words::{called, spoken};
 use crate::figures::{bounded, figure};
 use crate::report::{Measured, chapter, grid, side_by_side};
 use crate::sweep::{Quantities, QuantityRecord, SpreadRecord};
