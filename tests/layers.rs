@@ -261,6 +261,32 @@ fn modules_import_lower_layers_alone() {
     assert!(found.is_empty(), "imports that do not point down, by file: {found:#?}");
 }
 
+/// A folder or a file beside `lib.rs`, with all that is in it.
+fn rooms(
+    imports: &BTreeMap<&Vec<String>, BTreeSet<Vec<String>>>,
+) -> BTreeMap<Vec<String>, BTreeSet<Vec<String>>> {
+    let room = |module: &Vec<String>| module.iter().take(1).cloned().collect::<Vec<_>>();
+    let mut rooms = BTreeMap::new();
+    for (module, to) in imports.iter().filter(|(module, _)| !module.is_empty()) {
+        let own = room(module);
+        let others = to.iter().map(room).filter(|other| *other != own && !other.is_empty());
+        rooms.entry(own.clone()).or_insert_with(BTreeSet::new).extend(others.collect::<Vec<_>>());
+    }
+    rooms
+}
+
+#[test]
+fn no_rooms_import_each_other_in_a_circle() {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(repository().join("crates")).unwrap() {
+        let folder = entry.unwrap().path();
+        let rooms = rooms(&Sources::of(&folder.join("src")).imports());
+        let imports = rooms.iter().map(|(room, to)| (room, to.clone())).collect();
+        found.extend(circles(&imports).into_iter().map(|group| (folder.clone(), format!("{group:?}"))));
+    }
+    assert!(found.is_empty(), "rooms that import each other: {found:#?}");
+}
+
 #[test]
 fn no_files_import_each_other_in_a_circle() {
     let mut found = BTreeSet::new();
@@ -274,6 +300,18 @@ fn no_files_import_each_other_in_a_circle() {
         }
     }
     assert!(found.is_empty(), "files that import each other: {found:#?}");
+}
+
+/// Transforms, pictures and the reader of tables know no mechanics, and need nothing of this project.
+#[test]
+fn crates_without_mechanics_need_none_of_ours() {
+    for name in ["fret-drawing", "fret-fft", "fret-table"] {
+        let manifest = fs::read_to_string(repository().join("crates").join(name).join("Cargo.toml")).unwrap();
+        let dependencies =
+            manifest.split("\n[").find_map(|table| table.strip_prefix("dependencies]\n")).unwrap();
+        let ours: Vec<&str> = dependencies.lines().filter(|line| line.starts_with("fret")).collect();
+        assert!(ours.is_empty(), "{name} needs {ours:?}");
+    }
 }
 
 #[test]

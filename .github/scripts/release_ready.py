@@ -24,7 +24,7 @@ def missing(tag: str | None) -> list[str]:
     for name, given in cargo["dependencies"].items():
         if isinstance(given, dict) and "path" in given and given.get("version") != f"={version}":
             found.append(f'Cargo.toml: {name} must have version = "={version}"')
-    for name in ("fret-core", "fret-fft", "fret-table", "fret-results", "fret-cli"):
+    for name in ("fret-core", "fret-fft", "fret-table", "fret-results", "fret-drawing", "fret-cli"):
         package = tomllib.loads((ROOT / "crates" / name / "Cargo.toml").read_text(encoding="utf-8"))["package"]
         keys = ("description", "readme", "keywords", "categories", "include", "license")
         found += [f"crates/{name}/Cargo.toml: no {key}" for key in keys if key not in package]

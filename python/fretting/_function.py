@@ -2,14 +2,13 @@
 
 import copy
 from collections.abc import Iterable
-from typing import Any
 
 import numpy as np
 
 from fretting import _case, _core
 from fretting._arguments import texts
 from fretting._arrays import Reals
-from fretting._points import Table, put_at, steps
+from fretting._paths import Table, at, place, put_at, steps
 from fretting.differentiating import is_below, told, value_of
 from fretting.simulation import run
 
@@ -30,10 +29,10 @@ class Results:
         for number, (path, parts) in enumerate(zip(self.by, self._places, strict=True)):
             if alike[number] in alike[:number]:
                 raise ValueError(f"by: {path} is named twice")
-            if not isinstance(_at(self._table, parts), int | float):
+            if not isinstance(at(self._table, parts), int | float):
                 raise ValueError(f"by: {path}: no number of the case as it is written; such as 'friction.coefficient'")
         self._threads = threads
-        self.start = [float(_at(self._table, parts)) for parts in self._places]
+        self.start = [float(at(self._table, parts)) for parts in self._places]
         """The numbers of the case as it is."""
 
     def at(self, numbers: Reals) -> Table:
@@ -70,32 +69,3 @@ class Results:
         rows = [found[name] for name in self.of]
         matrix = np.array([[row[path] for path in self.by] for row in rows])
         return np.array([row["value"] for row in rows]), matrix, near
-
-
-def _index(items: Any, step: str) -> int:
-    """Where a list has what a number, or the name of a stage, stands for."""
-    names = [item.get("name") if isinstance(item, dict) else None for item in items]
-    return names.index(step) if step in names else range(len(items))[int(step)]
-
-
-def place(table: Any, path: str) -> tuple[str, ...]:
-    """Return the parts of a path, entries of lists by their numbers: alike for all ways to write one place."""
-    parts = []
-    for step in steps(path):
-        try:
-            key = _index(table, step) if isinstance(table, list | tuple) else step
-            table = table[key]
-        except (LookupError, TypeError, ValueError):
-            key, table = step, None
-        parts.append(str(key))
-    return tuple(parts)
-
-
-def _at(table: Any, parts: list[str]) -> Any:
-    """What stands at a place of a case; None where there is nothing."""
-    for step in parts:
-        try:
-            table = table[_index(table, step) if isinstance(table, list | tuple) else step]
-        except (LookupError, TypeError, ValueError):
-            return None
-    return table

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 
 from fretting._meaning import MEANING
-from fretting._points import RESERVED, Point, Table
+from fretting._paths import Table
+from fretting._points import RESERVED, Point
 from fretting.errors import FrettingWarning
 
 UNMEASURED = "measure: "

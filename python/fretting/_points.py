@@ -3,7 +3,6 @@
 import copy
 import itertools
 import json
-import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
@@ -13,10 +12,9 @@ import numpy.typing as npt
 
 from fretting import _case
 from fretting._meaning import MEANING
-from fretting.errors import CaseError
+from fretting._paths import Table, put
 from fretting.uncertainty import Distribution, drawn
 
-Table: TypeAlias = dict[str, Any]
 Key: TypeAlias = str | tuple[str, ...]
 
 
@@ -220,62 +218,6 @@ def _by_keys(keys: Sequence[str], values: Sequence[Any]) -> Callable[[Table], ob
             put(case, key, copy.deepcopy(value))
 
     return change
-
-
-def steps(path: str) -> list[str]:
-    """Return the parts of a path: words as they are, and numbers, in brackets or as parts of their own."""
-    return [part for part in re.split(r"\.|\[(-?\d+)\]", path) if part]
-
-
-def put(case: Table, key: str, value: object) -> None:
-    """Give the value to the entry of a case that a dotted key names.
-
-    Parts of the key are names of tables, numbers of a list's entries from 0 (negative: from the end), or, in a list of
-    tables, the ``name`` of one (a stage). Tables that are not there are made; entries of lists are not.
-    """
-    put_at(case, key.split("."), key, value)
-
-
-def put_at(case: Table, parts: Sequence[str], key: str, value: object) -> None:
-    """Give it to the entry that the parts of the key lead to."""
-    here: Any = case
-    for depth, part in enumerate(parts):
-        last = depth == len(parts) - 1
-        place = ".".join(parts[:depth]) or "the case"
-        if isinstance(here, dict):
-            if last:
-                here[part] = value
-            else:
-                here = here.setdefault(part, {})
-        elif isinstance(here, list):
-            index = _entry(here, part, key, place)
-            if last:
-                here[index] = value
-            else:
-                here = here[index]
-        else:
-            raise refusal(f"parameter {key!r}: {place} is {here!r}, which has no entry {part!r}")
-
-
-def _entry(items: list[Any], part: str, key: str, place: str) -> int:
-    names = [item.get("name") if isinstance(item, dict) else None for item in items]
-    if part in names:
-        return names.index(part)
-    try:
-        index = int(part)
-    except ValueError:
-        known = ", ".join(repr(name) for name in names if name) or "none has a name"
-        raise refusal(
-            f"parameter {key!r}: no entry of {place} is called {part!r} ({known}); a number from 0 serves as well"
-        ) from None
-    if not -len(items) <= index < len(items):
-        raise refusal(f"parameter {key!r}: {place} has {len(items)} entries, from 0; there is no {index}")
-    return index
-
-
-def refusal(message: str) -> CaseError:
-    """Refuse the sweep itself."""
-    return CaseError(f"error: sweep: {message}", [(None, None, message, None)])
 
 
 def _shown(value: object) -> str:

@@ -9,9 +9,9 @@ import numpy as np
 from fretting import _case
 from fretting._arguments import mapping, text
 from fretting._arrays import Reals
-from fretting._function import Results, place
+from fretting._function import Results
 from fretting._limits import Limit, Side, bounds_of, in_words, left, limit_of, objective_of
-from fretting._points import steps
+from fretting._paths import place, steps
 from fretting.errors import DesignError, Evaluation, FrettingError
 from fretting.planning import plan
 

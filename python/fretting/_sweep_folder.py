@@ -11,7 +11,7 @@ from typing import Any
 
 from fretting._case import NAMES_A_FILE
 from fretting._core import __version__
-from fretting._points import Table
+from fretting._paths import Table
 from fretting.errors import UnreadableError
 
 FORMAT = 1

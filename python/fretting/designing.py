@@ -10,7 +10,7 @@ from fretting import _case
 from fretting._arguments import needed, real, whole
 from fretting._arrays import Reals
 from fretting._limits import Limit, in_words, limit_in_words
-from fretting._points import Table
+from fretting._paths import Table
 from fretting._question import Question, SignChangedError
 from fretting.differentiating import near_in_words
 from fretting.errors import DesignError, Evaluation

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from fretting import _case, _core, _dataset
 from fretting._arguments import mapping, of_kind, text, texts
-from fretting._points import put_at, steps
+from fretting._paths import put_at, steps
 from fretting.differentiating import near_in_words, told
 from fretting.uncertainty import Distribution
 

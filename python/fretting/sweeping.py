@@ -16,7 +16,8 @@ from fretting import _case, _core, _start
 from fretting._arguments import needed, path
 from fretting._meaning import CYCLE_MEANING, MEANING, described, in_units
 from fretting._measuring import UNMEASURED, Measuring, measured, measured_variable
-from fretting._points import Dimension, Draw, Parameters, Point, Table, dimensions, is_uncertain, points
+from fretting._paths import Table
+from fretting._points import Dimension, Draw, Parameters, Point, dimensions, is_uncertain, points
 from fretting._progress import PointLine
 from fretting._sweep_folder import SweepFolder
 from fretting.errors import CaseError, OutOfMemoryError, RunError

@@ -11,7 +11,7 @@ import pytest
 from fretting import _style
 
 ROOT = Path(__file__).resolve().parents[2]
-PALETTE_CSS = ROOT / "crates" / "fret-cli" / "src" / "drawing" / "palette.css"
+PALETTE_CSS = ROOT / "crates" / "fret-drawing" / "src" / "palette.css"
 PAGE_CSS = ROOT / "crates" / "fret-cli" / "src" / "report" / "page.css"
 
 Real = npt.NDArray[np.float64]

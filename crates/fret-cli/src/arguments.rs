@@ -1,5 +1,6 @@
 //! What can be typed after `fret`. What it does lives in `commands`.
 
+mod columns;
 mod measured;
 
 use std::path::PathBuf;
@@ -9,6 +10,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use crate::manner::Manner;
 use crate::scatter::Scatter;
 use crate::threads::{self, Threads};
+pub use columns::columns_asked;
 pub use measured::{CompareScarArguments, IdentifyArguments};
 
 /// Fretting and partial slip of coated elastic contacts: pressure, shear, stick and slip zones through a loading history.

@@ -4,35 +4,24 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use fret_core::history::{History, Start};
+use fret_core::history::Start;
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::study::{StageQuantities, companion};
 use serde_json::{Value, json};
 
 pub use crate::arguments::StudyRequest;
-use crate::commands::preparation::Wanted;
-use crate::commands::run;
-use crate::commands::study::{Question, studied};
 use crate::defect;
-use crate::estimate::{Estimate, NoBars};
 pub use crate::failure::Failure;
-pub use crate::identify::Request as IdentifyRequest;
-pub use crate::identify::indentation::IndentationAsked;
+pub use crate::identify::{IndentationAsked, Question as IdentifyQuestion, Request as IdentifyRequest};
 use crate::manner::Manner;
+use crate::run::{self, Estimate, NoBars, Wanted, origin_in_memory};
+pub use crate::run::{Guest, Solved, save};
+use crate::study::question::Question;
+use crate::study::studied::studied;
 pub use crate::sweep::kinds::kind_of as kind_of_key;
 use crate::terminal;
-use crate::threads;
-use fret_results::{
-    CaseFile, ERROR_BARS, Ending, Origin, ResultFolder, RunRecord, Standing, Tally, Wish, read_record,
-    resolved_path, write_whole,
-};
+use fret_results::{CaseFile, Wish};
 pub use fret_results::{ReadInstrument, read_instruments_by};
-
-pub use crate::commands::run_observer::Guest;
-
-fn origin_in_memory(start: Option<Arc<Start>>) -> Option<Origin> {
-    start.map(|start| Origin { start, results: "a state in memory".to_owned(), increment: 0 })
-}
 
 /// Solves a case into a folder, as `fret run --out` does; `guest` hears of every increment and may stop the run.
 ///
@@ -81,70 +70,6 @@ pub fn error_bars(
     }
 }
 
-/// A history in memory with what it was solved by.
-#[derive(Debug, Clone, Copy)]
-pub struct Solved<'a> {
-    /// Its plan.
-    pub plan: &'a Plan,
-    /// The history.
-    pub history: &'a History,
-    /// Quantities of interest at the ends of its stages.
-    pub quantities: &'a [StageQuantities],
-    /// One word and the reason, where it ended early.
-    pub early: Option<(&'a str, &'a str)>,
-    /// Its error bars, where they were asked for.
-    pub error_bars: Option<&'a str>,
-}
-
-/// Writes a history into a folder, as the run itself would have done.
-///
-/// # Errors
-/// When the folder holds something else, or cannot be written.
-pub fn save(solved: Solved<'_>, case_file: &CaseFile, folder: &Path, wish: Wish) -> Result<(), Failure> {
-    let Solved { plan, history, quantities, early, error_bars } = solved;
-    let folder = &resolved_path(folder);
-    match ResultFolder::standing(folder, case_file, plan, wish)? {
-        Standing::SameCase
-            if early.is_some() && read_record(folder).is_ok_and(|record| record.is_solved()) =>
-        {
-            let what = format!(
-                "{}: holds this history to its end, and the one to be saved ended early",
-                folder.display()
-            );
-            return Err(Failure::call(what, "choose another folder, or replace it by that with --force"));
-        }
-        Standing::Free | Standing::SameCase | Standing::Forced => {}
-        Standing::Unfinished | Standing::Solved(_) => {
-            let what = format!("{}: holds results already", folder.display());
-            return Err(Failure::call(what, "choose another folder with --out DIR"));
-        }
-    }
-    let origin = origin_in_memory(plan.start.clone());
-    let record =
-        RunRecord::new(case_file, plan, threads::asked(None), origin.as_ref().map(Origin::told).as_ref());
-    let mut results = ResultFolder::open(folder, case_file, plan, record)?;
-    let mut tally = Tally::new(plan);
-    for step in &history.steps {
-        results.keep(step, history.fields_of(step.increment))?;
-        tally.add(step);
-        for cycle in history.cycles.iter().filter(|cycle| cycle.last_increment == step.increment) {
-            results.keep_cycle(cycle)?;
-            tally.add_cycle(cycle);
-        }
-    }
-    tally.stage_quantities = quantities.to_vec();
-    tally.worn_through.clone_from(&history.worn_through);
-    tally.worn_by_layer.clone_from(&history.worn_by_layer);
-    let wall_s = history.steps.iter().map(|step| step.wall_s).sum();
-    let ending =
-        early.map(|(status, message)| Ending { status: status.to_owned(), message: message.to_owned() });
-    results.close((&tally, &history.warnings), wall_s, ending.as_ref())?;
-    if let Some(text) = error_bars {
-        write_whole(&folder.join(ERROR_BARS), text.as_bytes())?;
-    }
-    Ok(())
-}
-
 /// Studies a case as `fret study` does; the answer is that of `study.json`. With `progress` every level is told on standard error.
 ///
 /// # Errors
@@ -164,28 +89,16 @@ pub fn study(
     Ok(json!(studied((&plan.case.title, plan), question, None, &say, guest)?.record))
 }
 
-/// Constants of a model from a measured log, as `identified.json` has them, and the page with its pictures.
+/// Constants of a model from measured fretting loops, or numbers of a case from an indentation, as `identified.json` has them, and the page with its
+/// pictures.
 ///
 /// # Errors
-/// When the log cannot be read as fretting loops of such a case, or the case cannot be solved.
+/// When the log cannot be read as what is asked about, or the case cannot be solved.
 pub fn identify(
     log: (&str, &[u8]),
     case_file: &CaseFile,
-    request: &IdentifyRequest,
+    question: &IdentifyQuestion,
 ) -> Result<(Value, String), Failure> {
-    let answer = defect::caught(|| crate::identify::identify(log, case_file, request))?;
-    Ok((answer.record, answer.page))
-}
-
-/// Numbers of a case from a measured indentation, as `identified.json` has them, and the page with its pictures.
-///
-/// # Errors
-/// When the log cannot be read as load over depth, or the case cannot be solved.
-pub fn identify_indentation(
-    log: (&str, &[u8]),
-    case_file: &CaseFile,
-    asked: &IndentationAsked,
-) -> Result<(Value, String), Failure> {
-    let answer = defect::caught(|| crate::identify::indentation::indentation(log, case_file, asked))?;
+    let answer = defect::caught(|| crate::identify::identify(log, case_file, question))?;
     Ok((answer.record, answer.page))
 }

@@ -3,6 +3,7 @@
 use fret_core::case::{CaseError, Mistake, printable};
 use fret_core::machine::memory::MemoryError;
 use fret_core::run::RunError;
+use fret_drawing::EncodingError;
 pub use fret_results::Unwritten;
 use fret_results::{Ending, ResultsError};
 use serde::{Deserialize, Serialize};
@@ -223,6 +224,12 @@ impl From<ResultsError> for Failure {
             ResultsError::Unwritten(unwritten) => Self::Unwritten(unwritten),
             ResultsError::Defect(what) => Self::Defect(what),
         }
+    }
+}
+
+impl From<EncodingError> for Failure {
+    fn from(error: EncodingError) -> Self {
+        Self::Defect(format!("an image of the page: {error}"))
     }
 }
 

@@ -44,6 +44,11 @@ pub fn figure_beside(value: f64, scale: f64) -> String {
     if value.abs() <= 1e-12 * scale.abs() { "0".to_owned() } else { figure(value) }
 }
 
+/// The largest magnitude.
+pub fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
+    values.into_iter().fold(0.0, |most: f64, value| most.max(value.abs()))
+}
+
 /// A share in percent.
 pub fn percent(share: f64) -> String {
     if share.is_finite() { format!("{:.1} %", 100.0 * share) } else { "–".to_owned() }

@@ -1,6 +1,6 @@
 //! Constants of a model from measured fretting loops, and numbers of a case from an indentation.
 
-use fret_cli::embedded::{self, IdentifyRequest, IndentationAsked};
+use fret_cli::embedded::{self, IdentifyQuestion, IdentifyRequest, IndentationAsked};
 use fret_core::identify::{IndentationRequest, Part, Request};
 use fret_core::measured;
 use pyo3::prelude::{PyResult, Python, pyfunction};
@@ -23,11 +23,20 @@ pub fn identify(
 ) -> PyResult<(String, String)> {
     let (columns, units, cycle, every, key, strict) = asked;
     let log_asked = Request { asked: measured::Asked { columns, units }, cycle, every, strict };
-    let request = IdentifyRequest { log: log_asked, key };
-    let (name, bytes) = log;
+    let question = IdentifyQuestion::Loops(IdentifyRequest { log: log_asked, key });
+    answered(py, log, case, &question, threads)
+}
+
+fn answered(
+    py: Python<'_>,
+    (name, bytes): (String, Vec<u8>),
+    case: &Case,
+    question: &IdentifyQuestion,
+    threads: Threads,
+) -> PyResult<(String, String)> {
     let pool = threads::pool(threads)?;
     let text = case.text()?;
-    let answer = py.detach(|| pool.install(|| embedded::identify((&name, &bytes), &text, &request)));
+    let answer = py.detach(|| pool.install(|| embedded::identify((&name, &bytes), &text, question)));
     answer.map(|(json, page)| (json.to_string(), page)).map_err(stopped)
 }
 
@@ -48,10 +57,5 @@ pub fn identify_indentation(
     let part = Part::named(&part).unwrap_or_default();
     let asked = measured::Asked { columns, units };
     let asked = IndentationAsked { request: IndentationRequest { asked, part, touch, frame, strict }, keys };
-    let (name, bytes) = log;
-    let pool = threads::pool(threads)?;
-    let text = case.text()?;
-    let answer =
-        py.detach(|| pool.install(|| embedded::identify_indentation((&name, &bytes), &text, &asked)));
-    answer.map(|(json, page)| (json.to_string(), page)).map_err(stopped)
+    answered(py, log, case, &IdentifyQuestion::Indentation(asked), threads)
 }

@@ -203,7 +203,8 @@ fn wheel() -> Vec<Step> {
 fn coverage() -> Step {
     let words = "tarpaulin --engine llvm --release --locked --follow-exec --skip-clean --timeout 1800 \
                  --target-dir target/coverage --output-dir target/coverage --out Stdout --out Json \
-                 --packages fretting --packages fretting-results --packages fretting-cli --packages fret-validation";
+                 --packages fretting --packages fretting-results --packages fretting-drawing --packages fretting-cli \
+                 --packages fret-validation";
     cargo(&words.split_whitespace().collect::<Vec<_>>()).called("coverage")
 }
 

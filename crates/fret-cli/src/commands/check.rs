@@ -4,11 +4,10 @@ use fret_core::run::plausibility;
 use serde_json::json;
 
 use crate::arguments::PlannedArguments;
-use crate::commands::plan::{
-    answered, cells, cells_in_contact_radius, expected_contact, left_out, planned, stages, warnings,
-};
+use crate::commands::plan::{answered, planned};
 use crate::failure::Failure;
 use crate::figures::counted;
+use crate::plan_words::{cells, cells_in_contact_radius, expected_contact, left_out, stages, warnings};
 use crate::terminal::Answer;
 
 /// Judges a case.

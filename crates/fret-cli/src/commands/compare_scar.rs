@@ -10,16 +10,14 @@ use fret_core::scar::{Comparison, Line, Pair, compare, read};
 use ndarray::Array2;
 use serde_json::{Value, json};
 
-use super::columns_asked::asked;
-use super::identify::content;
-use crate::arguments::CompareScarArguments;
-use crate::drawing::{Chart, Curve, Label};
+use crate::arguments::{CompareScarArguments, columns_asked};
 use crate::failure::Failure;
 use crate::figures::{figure, figure_in, indented};
-use crate::identify::name_of;
+use crate::log_file::{content, name_of};
 use crate::manner::place_of_answer;
 use crate::table::{Cell, Columns};
 use crate::terminal::Answer;
+use fret_drawing::{Chart, Curve, Label};
 use fret_results::{Results, SCAR};
 
 /// Fields that hold a wear depth: of each body where they move against each other, or of both together.
@@ -28,7 +26,7 @@ const OF_BOTH: &str = "worn_depth";
 /// Compares the last kept wear depth of a run with a measured line.
 pub fn compare_scar(arguments: &CompareScarArguments) -> Result<Answer, Failure> {
     let examples = ["position=x,height=z", "position=um,height=nm"];
-    let asked = asked(&arguments.columns, &arguments.units, examples)?;
+    let asked = columns_asked(&arguments.columns, &arguments.units, examples)?;
     let run = Results::read(&arguments.folder)?;
     let name = name_of(&arguments.measured);
     let refused = |error: MeasuredError| Failure::call(error.what, error.help);

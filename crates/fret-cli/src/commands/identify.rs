@@ -1,17 +1,15 @@
 //! `fret identify`: constants of a model from measured fretting loops, or from an indentation.
 
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use fret_core::identify;
+use fret_core::identify::{IndentationRequest, Part, Request as LoopsAsked};
 use fret_core::measured::Asked;
 
-use super::columns_asked::asked;
-use crate::arguments::IdentifyArguments;
+use crate::arguments::{IdentifyArguments, columns_asked};
 use crate::failure::Failure;
 use crate::figures::counted;
-use crate::identify::indentation::{IndentationAsked, indentation};
-use crate::identify::{Identified, Request, identify as identified, name_of};
+use crate::identify::{self, Identified, IndentationAsked, Question, Request};
+use crate::log_file::{content, name_of};
 use crate::terminal::Answer;
 use fret_results::{CaseFile, folder_for_answers, stem};
 
@@ -20,20 +18,18 @@ const IDENTIFIED: &str = "identified.json";
 /// How columns and units are chosen.
 const EXAMPLE: &str = "displacement=...,force=...";
 const EXAMPLE_OF_DEPTH: &str = "depth=...,force=...";
-/// Bytes of a log, at the most.
-const MOST_BYTES: u64 = 1 << 30;
 
 /// Identifies a log by a case; writes what was found beside it.
 pub fn identify(arguments: &IdentifyArguments) -> Result<Answer, Failure> {
     let name = name_of(&arguments.log);
     let bytes = content(&arguments.log)?;
-    let asked = |example: &str| asked(&arguments.columns, &arguments.units, [example, example]);
+    let asked = |example: &str| columns_asked(&arguments.columns, &arguments.units, [example, example]);
     let question = if arguments.indentation {
         Question::Indentation(indentation_asked(arguments, asked(EXAMPLE_OF_DEPTH)?)?)
     } else {
         let (asked, strict) = (asked(EXAMPLE)?, arguments.strict);
         let every = arguments.every.map(|every| every as usize);
-        let log = identify::Request { asked, cycle: arguments.cycle, every, strict };
+        let log = LoopsAsked { asked, cycle: arguments.cycle, every, strict };
         Question::Loops(Request { log, key: one_key(&arguments.fit)? })
     };
     let case_file = CaseFile::read(&arguments.case)?;
@@ -42,10 +38,8 @@ pub fn identify(arguments: &IdentifyArguments) -> Result<Answer, Failure> {
     let folder = folder_for_answers(&folder, &[IDENTIFIED], "an identification")?;
     arguments.manner.step(|| format!("read: {name}, {}", counted(bytes.len(), "byte")));
     let log = (name.as_str(), &bytes[..]);
-    let Identified { record, text, page, tables } = pool.install(|| match question {
-        Question::Loops(request) => identified(log, &case_file, &request),
-        Question::Indentation(request) => indentation(log, &case_file, &request),
-    })?;
+    let Identified { record, text, page, tables } =
+        pool.install(|| identify::identify(log, &case_file, &question))?;
     let manner = &arguments.manner;
     manner.write_json(&folder.join(IDENTIFIED), &record)?;
     manner.write(&folder.join("identified.html"), page.as_bytes())?;
@@ -54,12 +48,6 @@ pub fn identify(arguments: &IdentifyArguments) -> Result<Answer, Failure> {
     }
     let text = format!("{text}\nwritten to {}", folder.display());
     Ok(Answer::new(record, text))
-}
-
-/// What a log is asked.
-enum Question {
-    Loops(Request),
-    Indentation(IndentationAsked),
 }
 
 fn one_key(keys: &[String]) -> Result<Option<String>, Failure> {
@@ -77,7 +65,7 @@ fn one_key(keys: &[String]) -> Result<Option<String>, Failure> {
 }
 
 fn indentation_asked(arguments: &IdentifyArguments, asked: Asked) -> Result<IndentationAsked, Failure> {
-    let part = arguments.part.as_deref().and_then(identify::Part::named).unwrap_or_default();
+    let part = arguments.part.as_deref().and_then(Part::named).unwrap_or_default();
     if arguments.fit.is_empty() && !arguments.frame {
         return Err(Failure::call(
             "--indentation: nothing is fitted but the depth at first touch",
@@ -85,33 +73,8 @@ fn indentation_asked(arguments: &IdentifyArguments, asked: Asked) -> Result<Inde
         ));
     }
     let (touch, frame, strict) = (arguments.touch, arguments.frame, arguments.strict);
-    let request = identify::IndentationRequest { asked, part, touch, frame, strict };
+    let request = IndentationRequest { asked, part, touch, frame, strict };
     Ok(IndentationAsked { request, keys: arguments.fit.clone() })
-}
-
-/// The bytes of a log: an ordinary file, measured before it is read.
-///
-/// # Errors
-/// When it is none, or too long, or cannot be read.
-pub fn content(log: &Path) -> Result<Vec<u8>, Failure> {
-    let unreadable =
-        |why: String| Failure::call(format!("{}: {why}", name_of(log)), "a log is a text file with columns");
-    let found = std::fs::metadata(log).map_err(|error| unreadable(error.to_string()))?;
-    if !found.is_file() {
-        return Err(unreadable("no ordinary file".to_owned()));
-    }
-    if found.len() > MOST_BYTES {
-        return Err(unreadable(format!("{} bytes: more than {MOST_BYTES}", found.len())));
-    }
-    if found.len() == 0 {
-        // Not read: some files of the kernel say so too, and wait for ever.
-        return Ok(Vec::new());
-    }
-    // A file may grow while it is read.
-    let mut bytes = Vec::new();
-    let file = std::fs::File::open(log).map_err(|error| unreadable(error.to_string()))?;
-    file.take(MOST_BYTES).read_to_end(&mut bytes).map_err(|error| unreadable(error.to_string()))?;
-    Ok(bytes)
 }
 
 /// The folder for the answer, when none is named.

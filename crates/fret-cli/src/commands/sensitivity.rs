@@ -14,13 +14,13 @@ use fret_core::uncertainty::{FirstOrder, first_order};
 use fret_core::units::Units;
 use serde_json::{Map, Value, json};
 
-use super::stress_kinds::kind_of_stress;
 use crate::arguments::SensitivityArguments;
 use crate::failure::Failure;
 use crate::figures::figure;
 use crate::interrupt;
 use crate::manner::Listener;
 use crate::scatter::Scatter;
+use crate::stress::kind_of_stress;
 use crate::sweep::kinds::kind_of;
 use crate::table::Columns;
 use crate::terminal::Answer;

@@ -16,12 +16,14 @@ use serde_json::{Value, json};
 
 use super::question::{Question, Values, Written};
 use super::stress::stress_below;
-use crate::drawing::{Chart, Curve, Map, SURFACE, Section};
 use crate::failure::Failure;
 use crate::figures::percent;
 use crate::manner::Listener;
-use crate::report::{Measured, Part, Window, legend_of_zones, number};
-use crate::sweep::{Path, direction, last_cycle};
+use crate::report::{Measured, Part, Window, friction_in, legend_of_zones, number};
+use crate::stress::Section;
+use crate::sweep::{Path, last_cycle};
+use crate::way::Way;
+use fret_drawing::{Chart, Curve, Map};
 
 /// Room around the contact in a picture, over its width.
 const ROOM: f64 = 0.12;
@@ -230,8 +232,9 @@ impl<'a> View<'a> {
             (0..x.len()).filter(|&i| touches(i)).fold((usize::MAX, 0), |(a, b), i| (a.min(i), b.max(i)));
         let mut curves = vec![Curve::line(line(&|i| pressure[[i, row]]), "pressure", 0)];
         if let Some([along, across]) = &kept.shear {
-            let [cosine, sine] = direction(self.steps);
-            if let Some(coefficient) = self.coefficient() {
+            let [cosine, sine] = Way::through(self.steps).direction([0.0; 2]).unwrap_or([1.0, 0.0]);
+            let friction = self.record().and_then(|record| friction_in(&self.plan.case, record.stage));
+            if let Some((coefficient, None)) = friction {
                 curves.push(Curve::dashed(line(&|i| coefficient * pressure[[i, row]]), "friction bound", 2));
             }
             let shear = line(&|i| cosine * along[[i, row]] + sine * across[[i, row]]);
@@ -252,21 +255,6 @@ impl<'a> View<'a> {
             ..Chart::new("pressure and shear along x through the middle", axes, curves)
         };
         chart.in_page()
-    }
-
-    /// The coefficient of friction in force, where it is one number and shear has no other bound.
-    fn coefficient(&self) -> Option<f64> {
-        let case = &self.plan.case;
-        if case.friction_evolution.is_some() {
-            return None;
-        }
-        let own = case.stages.get(self.record()?.stage)?.friction.as_ref();
-        let rule = own.unwrap_or(&case.friction);
-        if rule.max_shear().is_some() {
-            None
-        } else {
-            rule.coefficient().uniform().filter(|value| *value > 0.0)
-        }
     }
 
     /// The part of the grid that maps show: the contact with some room around it.
@@ -348,7 +336,7 @@ impl<'a> View<'a> {
             range: None,
         };
         let figure =
-            section.drawing(SURFACE)?.map_or_else(String::new, |drawing| drawing.in_page().into_string());
+            section.drawing(Map::WIDTH)?.map_or_else(String::new, |drawing| drawing.in_page().into_string());
         let mut told = vec![
             ["mises".to_owned(), "max von Mises stress".to_owned(), self.number(most, "pressure")],
             ["depth".to_owned(), format!("its depth, {} body", below.body), self.number(depth, "length")],

@@ -5,14 +5,15 @@ use maud::{Markup, html};
 use serde_json::{Value, json};
 
 use super::constant::{cell, cells, of_constant};
+use super::identified::Identified;
+use super::keys::{case_with, value_of};
 use super::record::rows_in_words;
-use super::{Identified, case_with, value_of};
-use crate::drawing::{Chart, Curve, Label, Stroke};
 use crate::failure::Failure;
 use crate::figures::{counted, figure};
 use crate::report::{number, table, whole_page};
 use crate::sweep::key::dotted;
 use crate::table::Columns;
+use fret_drawing::{Chart, Curve, Label, Stroke};
 use fret_results::CaseFile;
 
 /// What is asked of an indentation, and the keys of the case that are fitted, such as `lower.coatings[0].young`.

@@ -6,8 +6,8 @@ use maud::{Markup, html};
 use super::constant::cells;
 use super::table::{COLUMNS, Column};
 use super::{over_cycles, repeated};
-use crate::drawing::{Chart, Curve, Label, Stroke, ends};
 use crate::report::{number, table, whole_page};
+use fret_drawing::{Axis, Chart, Curve, Label, Stroke};
 
 /// Loops that the stack shows, at the most.
 const MOST_LOOPS: usize = 40;
@@ -63,7 +63,7 @@ fn stack(found: &Identification, axes: [Label; 2]) -> Chart {
         found.cycles.iter().map(|cycle| &cycle.measured).filter(|cycle| cycle.fault.is_none()).collect();
     let every = cycles.len().div_ceil(MOST_LOOPS).max(1);
     let range = |of: &dyn Fn(&MeasuredCycle) -> &[f64]| {
-        let [low, high] = ends(cycles.iter().flat_map(|&cycle| of(cycle).iter().copied()));
+        let [low, high] = Axis::ends(cycles.iter().flat_map(|&cycle| of(cycle).iter().copied()));
         high - low
     };
     let (along, up) = (range(&|cycle| &cycle.displacement), range(&|cycle| &cycle.force));

@@ -4,8 +4,8 @@ use fret_core::identify::{Cycle, Identification};
 use serde_json::{Map, Value, json};
 
 use super::constant::of_constant;
+use super::repeated;
 use super::table::COLUMNS;
-use super::{over_cycles, repeated};
 
 /// Rows without a number that are named, at the most.
 const ROWS_NAMED: usize = 3;
@@ -26,7 +26,7 @@ pub fn record(found: &Identification) -> Value {
         "turned": {"force": found.turned.turned, "order_of_rows": found.turned.backwards},
         "skipped": skipped(found),
         "sliding_condition": found.regime,
-        "sliding_conditions": over_cycles::record(found),
+        "sliding_conditions": found.sliding_conditions(),
         "contact_stiffness": found.contact_stiffness,
         "cycles": found.cycles.iter().map(row).collect::<Vec<_>>(),
         "fits": repeated::record(found),

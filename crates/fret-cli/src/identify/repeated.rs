@@ -7,8 +7,8 @@ use serde_json::{Value, json};
 
 use super::constant::of_constant;
 use super::over_cycles::over_cycles;
-use crate::drawing::{Curve, Label, Stroke};
 use crate::figures::{counted, figure};
+use fret_drawing::{Curve, Label, Stroke};
 
 /// For programs.
 pub fn record(found: &Identification) -> Vec<Value> {

@@ -6,7 +6,8 @@ use std::path::PathBuf;
 use fret_core::identify::IndentationRequest;
 
 use super::indentation::{IndentationAsked, indentation};
-use super::{Identified, Request, identify};
+use super::loops::loops as identify;
+use super::{Identified, Request};
 use crate::failure::Failure;
 use crate::figures::figure;
 use fret_results::{Beside, CaseFile};

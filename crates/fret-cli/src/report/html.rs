@@ -7,7 +7,7 @@ use maud::{Markup, Render, html};
 use crate::figures::{figure, typed};
 use crate::table::Columns;
 
-use crate::drawing::superscript;
+use fret_drawing::Axis;
 
 /// A number as it is printed.
 pub fn number(value: f64) -> String {
@@ -26,13 +26,13 @@ pub fn given(value: f64) -> String {
 
 /// Digits with a power of ten in place of an `e`, and a true minus.
 fn printed(shown: &str) -> String {
-    match shown.split_once('e') {
-        Some((digits, exponent)) => {
-            let power = exponent.parse().map_or_else(|_| exponent.to_owned(), superscript);
-            format!("{digits} · 10{power}").replace('-', "−")
-        }
-        None => shown.replace('-', "−"),
-    }
+    let power =
+        |exponent: &str| exponent.parse().map_or_else(|_| format!("10{exponent}"), Axis::power_of_ten);
+    let shown = match shown.split_once('e') {
+        Some((digits, exponent)) => format!("{digits} · {}", power(exponent)),
+        None => shown.to_owned(),
+    };
+    shown.replace('-', "−")
 }
 
 /// A deviation in percent, with its sign and enough digits to be seen.

@@ -5,7 +5,7 @@ use fret_core::study::{PartialSlip, Pressed};
 use maud::{Markup, html};
 
 use super::{Measured, Overview};
-use crate::methods::paragraph;
+use crate::run::paragraph;
 
 const LAYERS: &str = "T. C. O'Sullivan, R. B. King: Sliding contact stress field due to a spherical indenter on a layered \
                       elastic half-space. J. Tribol. 110 (1988) 235–240.";

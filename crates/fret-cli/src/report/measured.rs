@@ -4,7 +4,7 @@ use fret_core::model::Dimension;
 use fret_core::units::Units;
 
 use super::{given, number};
-use crate::drawing::Label;
+use fret_drawing::Label;
 
 /// What has units.
 pub trait Measured {

@@ -4,6 +4,7 @@
 //! From the ground: `html` (numbers and parts), `measured` (numbers with their units), `rolled` (how far it rolled), `overview` (the run as a whole, and the closed forms that speak about it), `window` (what of
 //! the grid is shown), `chapters` (what the page tells), and the page itself here; `sweep` and `study` are pages of their own.
 
+mod answers;
 mod chapters;
 mod html;
 mod literature;
@@ -13,21 +14,20 @@ mod rolled;
 pub mod study;
 pub mod sweep;
 mod window;
-mod written;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::drawing;
 use crate::failure::Failure;
+pub use answers::{answer_beside, read_answer};
 pub use chapters::{json_in_page, legend_of_zones};
+use fret_drawing::Drawing;
 use fret_results::Results;
 pub use html::{chapter, deviation, given, grid, number, pairs, short, side_by_side, table};
 pub use measured::Measured;
-pub use overview::Overview;
+pub use overview::{Overview, friction_in, joined};
 pub use rolled::Rolled;
 pub use sweep::called;
 pub use window::{Part, Section, Window};
-pub use written::{answer_beside, read_answer};
 
 /// The style of the page.
 const STYLE: &str = include_str!("page.css");
@@ -68,7 +68,7 @@ pub fn page_with(title: &str, content: &Markup, parts: &PageParts<'_>) -> String
                 meta http-equiv="Content-Security-Policy" content=(parts.policy);
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (title) }
-                style { (PreEscaped(drawing::STYLE)) (PreEscaped(STYLE)) (PreEscaped(parts.style)) }
+                style { (PreEscaped(Drawing::STYLE)) (PreEscaped(STYLE)) (PreEscaped(parts.style)) }
             }
             body { main { (content) } script { (PreEscaped(parts.script)) } }
         }

@@ -1,5 +1,6 @@
 //! A run seen as a whole: its units, which way it was loaded, which increments are worth showing, what theory has to say about it.
 
+use fret_core::case::Case;
 use fret_core::history::{CycleRecord, STEP_COLUMNS};
 use fret_core::model::Dimension;
 use fret_core::plan::Coupling;
@@ -7,8 +8,10 @@ use fret_core::study::{Loaded, NormalForm, TangentialForm};
 use fret_core::units::Units;
 
 use super::{Measured, Rolled};
-use crate::drawing::{Label, joined};
-use fret_results::Results;
+use crate::figures::largest;
+use crate::way::Way;
+use fret_drawing::Label;
+use fret_results::{Results, Table};
 
 /// Share of the largest force below which there is none.
 const NOTHING: f64 = 1e-9;
@@ -42,11 +45,17 @@ pub struct Overview<'a> {
     pub spans: Vec<[usize; 2]>,
 }
 
+/// Points by their places and heights.
+pub fn joined(x: &[f64], y: &[f64]) -> Vec<[f64; 2]> {
+    x.iter().zip(y).map(|(x, y)| [*x, *y]).collect()
+}
+
 impl<'a> Overview<'a> {
     /// Looks at a run.
     pub fn of(results: &'a Results) -> Self {
         let table = &results.table;
-        let direction = direction(results);
+        let way = Way::of(table);
+        let direction = direction(table, &way);
         let [cosine, sine] = direction.unwrap_or([1.0, 0.0]);
         let history = history(results);
         // A state to start from may be worn, which a plan that was read back does not tell.
@@ -62,10 +71,10 @@ impl<'a> Overview<'a> {
             results,
             direction,
             tangential: history.iter().map(|loaded| loaded.components([cosine, sine])[0]).collect(),
-            shift: table.vectors("shift").iter().map(|[x, y]| cosine * x + sine * y).collect(),
+            shift: way.shifts.iter().map(|[x, y]| cosine * x + sine * y).collect(),
             normal_form,
             tangential_form,
-            twists: twists(results),
+            twists: way.twists(),
             rolled,
             spans: spans(table.column("stage"), results.case().stages.len()),
         }
@@ -81,19 +90,9 @@ impl<'a> Overview<'a> {
         self.results.plan().coupling == Coupling::Coupled
     }
 
-    /// What bounds shear in an increment: friction coefficient and shear strength, where they are the same everywhere.
+    /// What bounds shear in an increment.
     pub fn friction_at(&self, increment: usize) -> Option<(f64, Option<f64>)> {
-        let case = self.results.case();
-        if case.friction_evolution.is_some() {
-            return None;
-        }
-        let (stage, _) = self.place(increment);
-        let rule = case.stages.get(stage)?.friction.as_ref().unwrap_or(&case.friction);
-        let coefficient = rule.coefficient().uniform().filter(|coefficient| *coefficient > 0.0)?;
-        match rule.max_shear() {
-            None => Some((coefficient, None)),
-            Some(strength) => Some((coefficient, Some(strength.uniform()?))),
-        }
+        friction_in(self.results.case(), self.place(increment).0)
     }
 
     /// The way that it rolled, where it does so in the last increment.
@@ -262,32 +261,22 @@ fn history(results: &Results) -> Vec<Loaded> {
     (0..table.rows()).map(loaded).collect()
 }
 
-/// Whether moment times twist is more than force times shift along either axis, range by range.
-fn twists(results: &Results) -> bool {
-    let range = |name: &str| {
-        let values = results.table.column(name).iter();
-        let ends = values.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(*value), high.max(*value)));
-        ends.1 - ends.0
-    };
-    let work = |force: &str, motion: &str| range(force) * range(motion);
-    let sideways = work("tangential_force_x", "shift_x").max(work("tangential_force_y", "shift_y"));
-    work("twist_moment", "twist") > sideways
+/// Direction of the tangential load of a run, when there is any.
+fn direction(table: &Table, way: &Way) -> Option<[f64; 2]> {
+    let least = ["normal_force", "approach"].map(|beside| NOTHING * largest(table.column(beside)));
+    // What is a direction along an axis up to rounding is one.
+    Some(way.direction(least)?.map(|part| if part.abs() < 1e-6 { 0.0 } else { part }))
 }
 
-/// Direction of the largest tangential force, or else of the largest shift, with the sign of the first push.
-fn direction(results: &Results) -> Option<[f64; 2]> {
-    let table = &results.table;
-    let along = |name: &str, scale: f64| {
-        let vectors = table.vectors(name);
-        let longest = vectors.iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max);
-        let first = vectors.iter().find(|[x, y]| x.hypot(*y) > 0.5 * longest)?;
-        (longest > NOTHING * scale).then(|| first.map(|part| part / first[0].hypot(first[1])))
-    };
-    let largest = |name: &str| table.column(name).iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-    let found =
-        along("tangential_force", largest("normal_force")).or_else(|| along("shift", largest("approach")))?;
-    // What is a direction along an axis up to rounding is one.
-    Some(found.map(|part| if part.abs() < 1e-6 { 0.0 } else { part }))
+/// What bounds shear in a stage: friction coefficient and shear strength, where they are the same everywhere and all along.
+pub fn friction_in<M, H>(case: &Case<M, H>, stage: usize) -> Option<(f64, Option<f64>)> {
+    let rule = case.stages.get(stage).filter(|_| case.friction_evolution.is_none())?;
+    let rule = rule.friction.as_ref().unwrap_or(&case.friction);
+    let coefficient = rule.coefficient().uniform().filter(|coefficient| *coefficient > 0.0)?;
+    match rule.max_shear() {
+        None => Some((coefficient, None)),
+        Some(strength) => Some((coefficient, Some(strength.uniform()?))),
+    }
 }
 
 /// Increments of each stage that the run has reached.

@@ -1,6 +1,8 @@
 //! How far the contact of a run has rolled, and what it does by distance rolled.
 
 use fret_core::history::{Column, StepRecord, rolling_columns};
+
+use crate::figures::largest;
 use fret_results::Results;
 
 /// Share of the largest number of a unit below which another one is rounding.
@@ -30,8 +32,7 @@ impl Rolled {
         let first = steps.iter().find(|step| **step != [0.0; 2])?;
         let length = first[0].hypot(first[1]);
         let along = |[x, y]: [f64; 2]| (x * first[0] + y * first[1]) / length;
-        let largest =
-            |name: &str| table.column(name).iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let largest = |name: &str| largest(table.column(name));
         let of_unit = |unit: &str| {
             let alike = rolling_columns().filter(|(column, _)| column.unit == unit);
             alike.map(|(column, _)| largest(column.name)).fold(0.0, f64::max)

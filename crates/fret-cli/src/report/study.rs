@@ -9,10 +9,10 @@ use fret_core::study::{Convergence, Kind, Source};
 use maud::{Markup, html};
 
 use super::{chapter, grid, number, read_answer, side_by_side, table, whole_page};
-use crate::drawing::{Chart, Curve, Label};
 use crate::failure::Failure;
 use crate::study::record::{LevelRecord, LineRecord, StudyRecord, UnsolvedRecord};
 use crate::study::table::{ErrorColumn, columns, increments, kind_name};
+use fret_drawing::{Chart, Curve, Label};
 
 /// Curves of a chart, at the most: each has a colour of its own.
 const COLOURS: usize = 6;

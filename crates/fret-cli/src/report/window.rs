@@ -1,9 +1,9 @@
 //! The part of the grid that maps show, and the line through it that sections follow.
 
 use super::{Measured, Overview};
-use crate::drawing::{Raster, pixels_for};
 use crate::failure::Failure;
 use fret_core::model::Dimension;
+use fret_drawing::{EncodingError, Raster};
 use fret_results::Fields;
 use ndarray::Array2;
 
@@ -79,14 +79,14 @@ impl Part {
     }
 
     /// Values of its cells in false colours from one end to the other, as an address; what is no number stays clear.
-    pub fn values(&self, ends: [f64; 2], value: impl Fn([usize; 2]) -> f64) -> Result<String, Failure> {
-        let size = self.cells.map(pixels_for);
+    pub fn values(&self, ends: [f64; 2], value: impl Fn([usize; 2]) -> f64) -> Result<String, EncodingError> {
+        let size = Raster::pixels_for(self.cells);
         Raster::of_values(size, ends, |column, row| value(self.cell(size, [column, row]))).address()
     }
 
     /// Zones of its cells in their colours, as an address.
-    pub fn zones(&self, zone: impl Fn([usize; 2]) -> f64) -> Result<String, Failure> {
-        let size = self.cells.map(pixels_for);
+    pub fn zones(&self, zone: impl Fn([usize; 2]) -> f64) -> Result<String, EncodingError> {
+        let size = Raster::pixels_for(self.cells);
         Raster::of_zones(size, |column, row| zone(self.cell(size, [column, row]))).address()
     }
 

@@ -5,8 +5,8 @@ use fret_core::model::Dimension;
 use fret_core::study::{Form, Kind, Line, Quantity, RefinementStudy};
 use maud::{Markup, html};
 
-use crate::drawing::{Axis, Drawing, Frame, Label, room_for};
 use crate::study::table::kind_name;
+use fret_drawing::{Axis, Drawing, Frame, Label};
 
 const PANEL: f64 = 420.0;
 const RIGHT: f64 = 18.0;
@@ -109,10 +109,9 @@ impl Panel {
             self.curves.iter().flat_map(move |curve| curve.points.iter().map(move |(point, _)| point[axis]))
         };
         let axes = [Axis::logarithmic(points(0), 8), Axis::logarithmic(points(1), 8)];
-        let left = room_for(&axes[1]);
-        let frame = Frame { axes, across: [left, PANEL - RIGHT], down: DOWN, downward: false };
-        let names =
-            [Label { unit: Some("s".to_owned()), ..Label::plain("time") }, Label::plain("relative error")];
+        let frame = Frame::new(axes, PANEL - RIGHT, DOWN);
+        let left = frame.across[0];
+        let names = [Label::with("time", Some("s".to_owned())), Label::plain("relative error")];
         html! {
             text class="tick" x=(format!("{left:.1}")) y=(DOWN[0] - 12.0) { (self.title) }
             (frame.drawn([&names[0], &names[1]]))

@@ -5,9 +5,10 @@ use std::ops::Range;
 use fret_core::history::{CycleRecord, History, StepRecord};
 use serde::{Deserialize, Serialize};
 
-use crate::commands::heat_record::HeatRecord;
-use crate::commands::stress_record::StressRecord;
 use crate::failure::{Failure, FailureRecord};
+use crate::heat::HeatRecord;
+use crate::stress::StressRecord;
+use crate::way::Way;
 
 /// What a case asks for after it is solved.
 #[derive(Debug, Default)]
@@ -85,14 +86,8 @@ impl Path {
 
     /// The path through some increments, all of them.
     pub fn through(steps: &[StepRecord]) -> Self {
-        let range = |of: &dyn Fn(&StepRecord) -> f64| {
-            let values = steps.iter().map(of);
-            let ends = values.fold([0.0_f64; 2], |[low, high], value| [low.min(value), high.max(value)]);
-            ends[1] - ends[0]
-        };
-        let sideways = |axis: usize| range(&|of| of.tangential_force[axis]) * range(&|of| of.shift[axis]);
-        let twists = range(&|of| of.twist_moment) * range(&|of| of.twist) > sideways(0).max(sideways(1));
-        let [cosine, sine] = direction(steps);
+        let way = Way::through(steps);
+        let (twists, [cosine, sine]) = (way.twists(), way.direction([0.0; 2]).unwrap_or([1.0, 0.0]));
         let along = |[x, y]: [f64; 2]| cosine * x + sine * y;
         let point = |step: &StepRecord| {
             if twists {
@@ -115,18 +110,6 @@ pub fn last_cycle(history: &History) -> Range<usize> {
         }
         None => 0..all,
     }
-}
-
-/// Direction of the largest tangential force, or else of the largest shift, with the sign of the first push; along x where there is none.
-pub fn direction(steps: &[StepRecord]) -> [f64; 2] {
-    let longest = |of: &dyn Fn(&StepRecord) -> [f64; 2]| {
-        let vectors = || steps.iter().map(of).map(|[x, y]| ([x, y], x.hypot(y)));
-        let most = vectors().fold(0.0, |most: f64, (_, length)| most.max(length));
-        vectors().find(|(_, length)| *length > 0.5 * most).map(|([x, y], length)| [x / length, y / length])
-    };
-    longest(&|step: &StepRecord| step.tangential_force)
-        .or_else(|| longest(&|step: &StepRecord| step.shift))
-        .unwrap_or([1.0, 0.0])
 }
 
 const SOLVED: &str = "solved";

@@ -1,14 +1,14 @@
 //! The numbers of a point: the columns of `summary.csv`, and what the page of a sweep draws. Those of the last increment and the last cycle
 //! every sweep has; those of stresses, fatigue, cracks, coatings and heat the sweeps whose cases ask for them.
 
-use fret_core::history::{self, CYCLE_COLUMNS, Column, CycleRecord, Drive, STEP_COLUMNS, rolling_columns};
+use fret_core::history::{CYCLE_COLUMNS, Column, CycleRecord, Drive, STEP_COLUMNS, rolling_columns};
 use fret_core::subsurface::Measure;
 use fret_core::subsurface::fatigue::Parameter;
 use serde_json::{Value, json};
 
-use crate::commands::heat_record::{HeatRecord, Resistance};
-use crate::commands::stress_kinds::kind_of_stress;
-use crate::commands::stress_record::{Bounded, CrackRecord, FilmRecord, ParameterRecord, StressRecord};
+use crate::heat::{HeatRecord, Resistance};
+use crate::stress::kind_of_stress;
+use crate::stress::{Bounded, CrackRecord, FilmRecord, ParameterRecord, StressRecord};
 use crate::sweep::answer::{Answer, Numbers};
 
 /// Columns of the last increment.
@@ -159,14 +159,14 @@ pub fn columns(answers: &[Option<Answer>]) -> Vec<SummaryColumn> {
     let mut columns = Vec::new();
     let at_end = |name: &&str| {
         let column = STEP_COLUMNS.iter().find(|column| column.name == *name)?;
-        let value = |place: usize| Some(told(column, numbers[place]?.end.as_ref()?));
+        let value = |place: usize| Some(column.json(numbers[place]?.end.as_ref()?));
         Some(of_records(column.name.to_owned(), column.unit, &value))
     };
     columns.extend(END.iter().filter_map(at_end));
     let cycles = numbers.iter().filter_map(|numbers| (*numbers)?.cycle.as_ref());
     let drive = Drive::of_all(cycles.map(|cycle| cycle.drive));
     for column in of_cycle() {
-        let value = |place: usize| Some(told(column, numbers[place]?.cycle.as_ref()?));
+        let value = |place: usize| Some(column.json(numbers[place]?.cycle.as_ref()?));
         columns.push(of_records(format!("cycle_{}", column.name), column.unit_driven(drive), &value));
     }
     let mut asked = Vec::new();
@@ -211,20 +211,10 @@ fn of_cycle() -> impl Iterator<Item = &'static Column<CycleRecord>> {
     CYCLE.iter().filter_map(|name| CYCLE_COLUMNS.iter().find(|column| column.name == *name))
 }
 
-fn told<R>(column: &Column<R>, record: &R) -> Value {
-    match column.value {
-        history::Value::Count(of) => json!(of(record)),
-        history::Value::Real(of) => json!(of(record)),
-        history::Value::RealOrNone(of) | history::Value::RealOrZero(of) => json!(of(record)),
-        history::Value::Truth(of) => json!(of(record)),
-        history::Value::Word(of) => json!(of(record)),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::commands::stress_record::CrackFollowed;
+    use crate::stress::record::CrackFollowed;
 
     #[test]
     fn the_summary_has_columns_of_the_tables() {

@@ -1,8 +1,10 @@
 //! Many cases: the written question of a sweep (`question`), what a key of an axis names (`key`) and the kind of its quantity (`kinds`), what a point came to
 //! (`answer`) and its numbers by name (`columns`), the open ones planned, with what they have in common (`planned`), the folder that keeps
-//! it (`folder`, its `record`), the units that its numbers are told in (`setting`); samples of uncertain keys (`drawn`) and what they say (`spread`).
+//! it (`folder`, its `record`), what the workers share (`board`), what a case asks for besides its numbers (`besides`), the units that its numbers are told in (`setting`); samples of uncertain keys (`drawn`) and what they say (`spread`).
 
 mod answer;
+mod besides;
+mod board;
 pub mod columns;
 mod drawn;
 mod folder;
@@ -14,9 +16,9 @@ pub mod record;
 pub mod setting;
 mod spread;
 
-pub use answer::{Answer, Besides, Counts, Path, direction, last_cycle};
+pub use answer::{Answer, Counts, Path, last_cycle};
+pub use board::Board;
 pub use folder::{Kept, POINTS, RECORD, SweepFolder, UNCERTAINTY};
-pub use planned::{Planned, asks_for_more};
 pub use question::{Point, Question};
 pub use record::SweepRecord;
 pub use spread::{Quantities, QuantityRecord, Spread, SpreadRecord};

@@ -12,7 +12,7 @@ use super::friction::{friction, of_stages};
 use super::hardness::hardness;
 use super::interface::sliding_coatings;
 use super::judge::Judge;
-use super::kinematics::{Concerned, kinematics};
+use super::kinematics::kinematics;
 use super::known::Known;
 use super::line::{datum, line, motion_without_datum};
 use super::mean_gap::mean_plane;
@@ -83,8 +83,9 @@ pub(super) fn case(
         laws: laws.as_deref(),
         stages: stages.as_deref(),
     };
-    let (loading, periodic) = (known.loading(), known.periodic());
-    let friction_evolution = evolution(&mut judge, file.friction.as_ref(), friction.as_ref(), loading);
+    let periodic = known.periodic();
+    let friction_evolution =
+        evolution(&mut judge, file.friction.as_ref(), friction.as_ref(), known.loading());
     let datum = datum(&mut judge, &known);
     let beyond = beyond(&mut judge, &file.grid, size);
     if dimension == Dimension::Line {
@@ -106,8 +107,8 @@ pub(super) fn case(
         let friction = (laws.as_slice(), strongest.as_ref());
         sliding(&mut judge, friction, &file.load, stages, tolerance.unwrap_or(TOLERANCE));
     }
-    let kinematics = kinematics(&mut judge, &Concerned { file: &file, loading });
-    rolling(&mut judge, &file, loading, (kinematics, profile.as_ref(), laws.as_deref()));
+    let kinematics = kinematics(&mut judge, &known);
+    rolling(&mut judge, &known, kinematics);
     let hardness = hardness(&mut judge, &known, kinematics);
     let wear = wear(&mut judge, &known, kinematics);
     let output = output(&mut judge, file.output.as_ref());
@@ -156,18 +157,16 @@ fn judge_of<'a>(file: &CaseFile, attachments: Attachments<'a>, places: &'a Place
     let dimension = Dimension::from(matches!(&file.grid.cells.value, CellsFile::Line(_)));
     let displacement = file.kinematics.as_ref().and_then(|given| given.value.displacement.as_ref());
     let moves = displacement.is_some_and(|given| given.value == Displacement::Finite);
-    let (mistakes, force_unit) = (Vec::new(), String::new());
-    let (mean_plane, by_mean_gap) = (Ok(0.0), Vec::new());
     let mut judge = Judge {
-        mistakes,
+        mistakes: Vec::new(),
         attachments,
         places,
-        force_unit,
+        force_unit: String::new(),
         units: None,
         dimension,
         moves,
-        mean_plane,
-        by_mean_gap,
+        mean_plane: Ok(0.0),
+        by_mean_gap: Vec::new(),
     };
     judge.units = file.units.as_ref().and_then(|file| declared_units(&mut judge, file));
     judge.force_unit = Units::after(judge.units.as_ref(), "force", dimension);

@@ -1,6 +1,6 @@
 //! The judgement of conductivities, and of what is asked about friction heat.
 
-use super::judge::Judge;
+use super::judge::{Judge, Reason, first};
 use super::known::Known;
 use super::output::Output;
 use super::parts::{Constant, NamedBody};
@@ -27,65 +27,55 @@ pub(super) fn conduction(judge: &mut Judge, known: &Known<'_>, output: Option<&O
 }
 
 /// Why no temperature can be told of this case, and what to do.
-fn without_meaning(
-    conduction: &Conduction,
-    known: &Known<'_>,
-    output: Option<&Output>,
-) -> Option<(&'static str, &'static str)> {
+fn without_meaning(conduction: &Conduction, known: &Known<'_>, output: Option<&Output>) -> Option<Reason> {
     let periodic = known.periodic();
     let is_cyclic = |stage: &Stage| matches!(stage.course, Course::Cycles(_));
-    if conduction.thermal.iter().all(Option::is_none) {
-        return Some((
-            "neither body conducts heat",
-            "thermal_conductivity = ... in every layer and substrate of a body",
-        ));
-    }
-    if known.is_frictionless() {
-        return Some(("a contact without friction makes no heat", "[friction] coefficient = ..."));
-    }
-    if known.laws.is_some_and(|laws| laws.iter().any(|law| law.max_shear().is_some())) {
-        return Some((
-            "heat by friction under friction.max_shear, a shear strength, is not computed",
-            "without max_shear, or without [thermal]: the contact resistance needs none",
-        ));
-    }
-    if known.dimension == Dimension::Line {
-        return Some((
-            "a line contact: along an infinite line no steady temperature is finite",
-            "cells = [x, y], a contact of finite length",
-        ));
-    }
-    if periodic.one_axis().is_some() {
-        return Some((
-            "a case that is periodic along one axis: along an infinite line no steady temperature is finite",
-            "a contact of finite length, on a grid around it: periodic = false",
-        ));
-    }
-    if periodic.is_both() {
-        return Some((
-            "a periodic case: heated all over, a half-space has no steady temperature",
-            "a single contact, on a grid around it: periodic = false",
-        ));
-    }
-    if known.stages.is_some_and(|stages| !stages.last().is_some_and(is_cyclic)) {
-        return Some((
-            "the last stage has no cycles, and only of a cycle is the mean power known",
-            "cycles = ... in the last stage",
-        ));
-    }
-    if known.stages.is_some_and(|stages| stages.last().is_some_and(Stage::rolls)) {
-        return Some((
-            "the contact rolls in the last stage, and the heat of a cycle is taken to enter both bodies in the same places",
-            "a last stage that does not roll, or leave [thermal] out",
-        ));
-    }
-    let kept = output.is_none_or(|output| {
+    let is_kept = output.is_none_or(|output| {
         output.every == Some(1) && ["pressure", "shear", "slip"].iter().all(|name| output.keeps(name))
     });
-    (!kept).then_some((
-        "the heat of a cycle is made of the tractions and the slip of all its increments, which are not kept",
-        "[output] every = 1, and fields = [\"pressure\", \"shear\", \"slip\", ...] where fields are given",
-    ))
+    first([
+        (
+            conduction.thermal.iter().all(Option::is_none),
+            "neither body conducts heat",
+            "thermal_conductivity = ... in every layer and substrate of a body",
+        ),
+        (known.is_frictionless(), "a contact without friction makes no heat", "[friction] coefficient = ..."),
+        (
+            known.laws.is_some_and(|laws| laws.iter().any(|law| law.max_shear().is_some())),
+            "heat by friction under friction.max_shear, a shear strength, is not computed",
+            "without max_shear, or without [thermal]: the contact resistance needs none",
+        ),
+        (
+            known.dimension == Dimension::Line,
+            "a line contact: along an infinite line no steady temperature is finite",
+            "cells = [x, y], a contact of finite length",
+        ),
+        (
+            periodic.one_axis().is_some(),
+            "a case that is periodic along one axis: along an infinite line no steady temperature is finite",
+            "a contact of finite length, on a grid around it: periodic = false",
+        ),
+        (
+            periodic.is_both(),
+            "a periodic case: heated all over, a half-space has no steady temperature",
+            "a single contact, on a grid around it: periodic = false",
+        ),
+        (
+            known.stages.is_some_and(|stages| !stages.last().is_some_and(is_cyclic)),
+            "the last stage has no cycles, and only of a cycle is the mean power known",
+            "cycles = ... in the last stage",
+        ),
+        (
+            known.stages.is_some_and(|stages| stages.last().is_some_and(Stage::rolls)),
+            "the contact rolls in the last stage, and the heat of a cycle is taken to enter both bodies in the same places",
+            "a last stage that does not roll, or leave [thermal] out",
+        ),
+        (
+            !is_kept,
+            "the heat of a cycle is made of the tractions and the slip of all its increments, which are not kept",
+            "[output] every = 1, and fields = [\"pressure\", \"shear\", \"slip\", ...] where fields are given",
+        ),
+    ])
 }
 
 /// The conductor that a body is by a constant, which says its `conductivity`; `None` where no layer has it, or it was refused.
@@ -170,11 +160,6 @@ mod tests {
                 [upper, coating, substrate, every],
                 "[[load]]\nshift = [0.0, 0.0]\nincrements = 1\n[thermal]\nfrequency = 1.0\n",
                 "no cycles",
-            ),
-            (
-                [upper, coating, substrate, every],
-                "[[load]]\nroll = 0.4\ncycles = 1\nincrements = 8\n[thermal]\nfrequency = 1.0\n",
-                "the contact rolls",
             ),
         ] {
             let error = read(words, more).unwrap_err();

@@ -86,6 +86,11 @@ impl ControlKeys {
         self.0.iter().find(|given| given.way.name == name)
     }
 
+    /// Where it stands.
+    pub fn span_of(&self, name: &str) -> Option<Range<usize>> {
+        self.of(name).map(Given::span)
+    }
+
     /// Whether the contact is to roll until nothing changes any more.
     pub fn are_steady(&self) -> bool {
         self.of("roll").is_some_and(|roll| roll.values.is_empty())

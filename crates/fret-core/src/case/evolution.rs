@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::judge::Judge;
-use super::stage_file::StageFile;
+use super::loading::Loading;
 use super::surface_file::{EvolutionFile, FrictionFile};
 use crate::document::At;
 use crate::model::stage::{Course, Stage};
@@ -17,7 +17,7 @@ pub(super) fn evolution(
     judge: &mut Judge,
     given: Option<&FrictionFile>,
     first: Option<&CoulombFriction>,
-    (files, stages): (&[At<StageFile>], Option<&[Stage]>),
+    loading: Loading<'_>,
 ) -> Option<FrictionEvolution> {
     let place = given?.evolution.as_ref()?;
     let file = &place.value;
@@ -32,8 +32,8 @@ pub(super) fn evolution(
     let law = law(judge, place, first);
     let every = file.every.unwrap_or(1);
     let tolerance = file.tolerance.unwrap_or(TOLERANCE);
-    for (index, stage) in files.iter().enumerate() {
-        if let Some(change) = &stage.value.friction {
+    for (index, stage) in loading.files.iter().enumerate() {
+        if let Some(change) = &stage.friction {
             judge.refuse::<()>(
                 change.span(),
                 format!("load[{index}].friction and friction.evolution, both at once"),
@@ -42,7 +42,7 @@ pub(super) fn evolution(
         }
     }
     let whose = ("friction.evolution", "whose friction evolves");
-    changing_cycles(judge, place.span(), whose, every, stages.unwrap_or_default());
+    changing_cycles(judge, place.span(), whose, every, loading.checked.unwrap_or_default());
     let law = law?;
     (judge.mistakes.len() == before).then_some(FrictionEvolution { by: file.by, law, every, tolerance })
 }

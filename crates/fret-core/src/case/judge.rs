@@ -8,8 +8,13 @@ use crate::model::Dimension;
 use crate::numbers::letters;
 use crate::units::Units;
 
-/// Why a case has no mean gap to prescribe, and what to prescribe instead.
-pub(super) type WithoutMeanGap = (&'static str, &'static str);
+/// Why something has no meaning in a case, and what to do instead.
+pub(super) type Reason = (&'static str, &'static str);
+
+/// The first reason that holds.
+pub(super) fn first<const N: usize>(reasons: [(bool, &'static str, &'static str); N]) -> Option<Reason> {
+    reasons.into_iter().find(|(holds, ..)| *holds).map(|(_, why, help)| (why, help))
+}
 
 /// Collects mistakes; `None` stands for a value that was refused.
 pub(super) struct Judge<'a> {
@@ -26,7 +31,7 @@ pub(super) struct Judge<'a> {
     /// Whether the surfaces move with their bodies.
     pub(super) moves: bool,
     /// Mean of the undeformed gap [length], from which a mean gap counts; or why none can be prescribed, and what to do instead.
-    pub(super) mean_plane: Result<f64, WithoutMeanGap>,
+    pub(super) mean_plane: Result<f64, Reason>,
     /// Stages that prescribe a mean gap.
     pub(super) by_mean_gap: Vec<usize>,
 }

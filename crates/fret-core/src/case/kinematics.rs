@@ -1,32 +1,24 @@
 //! The judgement of how the surfaces move, and of what moving surfaces cannot be combined with.
 
-use super::file::CaseFile;
 use super::judge::Judge;
-use super::misfits::Loading;
+use super::known::Known;
 use super::surface_file::OfFile;
 use crate::document::At;
 use crate::model::{Displacement, Frame, Kinematics, Periodicity, Side};
-
-/// What is looked at.
-pub(super) struct Concerned<'a> {
-    pub file: &'a CaseFile,
-    pub loading: Loading<'a>,
-}
 
 /// The way out of most refusals.
 const SMALL: &str = "displacement = \"small\", which leaves the surfaces where they are; or leave it out";
 const FINITE: &str = "kinematics.displacement = \"finite\"";
 
 /// How the surfaces move; refuses what they cannot be combined with.
-pub(super) fn kinematics(judge: &mut Judge, concerned: &Concerned<'_>) -> Kinematics {
-    let Concerned { file, .. } = concerned;
+pub(super) fn kinematics(judge: &mut Judge, known: &Known<'_>) -> Kinematics {
+    let file = known.file;
     let given = file.kinematics.as_ref().and_then(|given| given.value.displacement.as_ref());
     let moves_with = file.friction.as_ref().and_then(|friction| friction.moves_with.as_ref());
     let displacement = given.map_or_else(Displacement::default, |given| given.value);
     let frame = file.kinematics.as_ref().and_then(|given| given.value.frame.as_ref());
     // A contact that rolls on and on stays where it is.
-    let is_steady = concerned.loading.0.iter().any(|stage| stage.value.controls.are_steady());
-    let default = if is_steady { Frame::Contact } else { Frame::Bodies };
+    let default = if known.loading().is_steady() { Frame::Contact } else { Frame::Bodies };
     let frame = frame.map_or(default, |given| given.value);
     let beyond_maps = file.kinematics.as_ref().and_then(|given| given.value.beyond_maps.as_ref());
     if let Some(given) = beyond_maps.filter(|_| frame == Frame::Bodies) {

@@ -1,7 +1,7 @@
 //! What is known of a case while it is judged.
 
 use super::file::CaseFile;
-use super::misfits::Loading;
+use super::loading::Loading;
 use super::parts::NamedBody;
 use crate::model::stage::Stage;
 use crate::model::{ContactPair, CoulombFriction, Dimension, GridSize, Periodicity, Profile};
@@ -23,7 +23,7 @@ pub(super) struct Known<'a> {
 impl<'a> Known<'a> {
     /// The stages, as they are written, and judged.
     pub fn loading(&self) -> Loading<'a> {
-        (&self.file.load.value, self.stages)
+        Loading { files: &self.file.load.value, checked: self.stages }
     }
 
     /// The lower and the upper body, as they are written.

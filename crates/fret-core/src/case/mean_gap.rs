@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::file::CaseFile;
 use super::hardness::of_softer;
-use super::judge::{Judge, WithoutMeanGap};
+use super::judge::{Judge, Reason, first};
 use super::stage_file::StageFile;
 use crate::kernel::uniform_response;
 use crate::model::{ContactPair, Profile, SurfaceGrid};
@@ -14,6 +14,7 @@ use crate::topography::Cells;
 pub(super) const MEAN_GAP: &str = "mean_gap";
 
 const WITH_APPROACH: &str = "approach = ...";
+const WITH_FORCE: &str = "normal_force = ...";
 
 /// Mean of the undeformed gap [length]. Elastic displacements of a periodic half-space have no mean, so the mean gap between the
 /// surfaces is this less the approach.
@@ -22,22 +23,21 @@ pub(super) fn mean_plane(
     (over, moves): (Option<Cells>, bool),
     bodies: Option<&ContactPair>,
     profile: Option<&Profile>,
-) -> Result<f64, WithoutMeanGap> {
-    if !file.grid.periodicity().is_both() {
-        return Err(("of surfaces that do not repeat: theirs grows with the grid", WITH_APPROACH));
-    }
-    if bodies.is_some_and(|bodies| uniform_response(bodies).is_some()) {
-        return Err(("of layers on a rigid base, which have an approach", WITH_APPROACH));
-    }
-    let other = "normal_force = ...";
-    if moves {
-        return Err(("of surfaces that move against each other: it changes with them", other));
-    }
-    if file.wear.is_some() {
-        return Err(("of surfaces that wear: it changes with them", other));
-    }
-    if of_softer(file).is_some() {
-        return Err(("of surfaces that yield: it changes with them", other));
+) -> Result<f64, Reason> {
+    let on_a_rigid_base = bodies.is_some_and(|bodies| uniform_response(bodies).is_some());
+    let reason = first([
+        (
+            !file.grid.periodicity().is_both(),
+            "of surfaces that do not repeat: theirs grows with the grid",
+            WITH_APPROACH,
+        ),
+        (on_a_rigid_base, "of layers on a rigid base, which have an approach", WITH_APPROACH),
+        (moves, "of surfaces that move against each other: it changes with them", WITH_FORCE),
+        (file.wear.is_some(), "of surfaces that wear: it changes with them", WITH_FORCE),
+        (of_softer(file).is_some(), "of surfaces that yield: it changes with them", WITH_FORCE),
+    ]);
+    if let Some(reason) = reason {
+        return Err(reason);
     }
     let counts = |stage: &StageFile| stage.table.is_some() || stage.controls.of(MEAN_GAP).is_some();
     if !file.load.value.iter().any(|stage| counts(&stage.value)) {

@@ -23,6 +23,7 @@ mod judge;
 mod kinematics;
 mod known;
 mod line;
+mod loading;
 mod mean_gap;
 mod misfits;
 mod output;

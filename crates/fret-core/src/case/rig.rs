@@ -1,6 +1,6 @@
 //! The judgement of the machine: how stiff it is, that a stage which drives its far end has one, and what its logs look like.
 
-use super::control_keys::{BothOrOne, Given};
+use super::control_keys::BothOrOne;
 use super::file::{LogColumnsFile, RigFile};
 use super::judge::Judge;
 use super::stage_file::StageFile;
@@ -49,28 +49,20 @@ pub(super) fn driven(
     columns: Option<&Loads>,
     rig: Option<&RigFile>,
 ) {
-    let given = |freedom: usize| {
-        rig.is_some_and(|rig| {
-            if freedom == NORMAL {
-                rig.normal_stiffness.is_some()
-            } else {
-                rig.tangential_stiffness.is_some()
-            }
-        })
-    };
     for row in &CONTROLS {
         let Some(way) = row.ways.iter().find(|way| way.kind == Kind::FarEnd) else { continue };
+        let (stiffness, is_given) = if row.freedom == NORMAL {
+            ("normal_stiffness", rig.is_some_and(|rig| rig.normal_stiffness.is_some()))
+        } else {
+            ("tangential_stiffness", rig.is_some_and(|rig| rig.tangential_stiffness.is_some()))
+        };
         let in_table =
             row.columns(way).any(|(name, _)| columns.is_some_and(|columns| columns.contains_key(&name)));
         let table = || file.table.as_ref().filter(|_| in_table).map(At::span);
-        let key = way.name;
-        if let (Some(span), false) =
-            (file.controls.of(key).map(Given::span).or_else(table), given(row.freedom))
-        {
-            let stiffness = if row.freedom == NORMAL { "normal_stiffness" } else { "tangential_stiffness" };
+        if let Some(span) = file.controls.span_of(way.name).or_else(table).filter(|_| !is_given) {
             judge.refuse::<()>(
                 span,
-                format!("{place}.{key}: the case does not say how stiff the machine is"),
+                format!("{place}.{}: the case does not say how stiff the machine is", way.name),
                 &format!("[rig] {stiffness} = ...; or prescribe the {} of the body itself", row.ways[1].name),
             );
         }

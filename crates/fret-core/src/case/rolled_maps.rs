@@ -1,20 +1,15 @@
 //! The judgement of maps of heights and friction that travel through a grid which goes with a contact that rolls.
 
-use super::control_keys::Given;
-use super::file::CaseFile;
 use super::judge::Judge;
-use super::misfits::Loading;
-use crate::model::{CoulombFriction, Kinematics, Profile};
+use super::known::Known;
+use super::loading::Prescribed;
+use crate::model::Kinematics;
 
 /// Refuses what lies beyond maps that are none.
-pub(super) fn beyond_no_map(
-    judge: &mut Judge,
-    file: &CaseFile,
-    (profile, laws): (Option<&Profile>, Option<&[&CoulombFriction]>),
-) {
-    let (Some(profile), Some(laws)) = (profile, laws) else { return };
+pub(super) fn beyond_no_map(judge: &mut Judge, known: &Known<'_>) {
+    let (Some(profile), Some(laws)) = (known.profile, known.laws) else { return };
     let has_maps = !profile.heights.is_empty() || laws.iter().any(|law| law.is_map());
-    let beyond = file.kinematics.as_ref().and_then(|given| given.value.beyond_maps.as_ref());
+    let beyond = known.file.kinematics.as_ref().and_then(|given| given.value.beyond_maps.as_ref());
     if let Some(given) = beyond.filter(|_| !has_maps) {
         judge.refuse::<()>(
             given.span(),
@@ -25,19 +20,14 @@ pub(super) fn beyond_no_map(
 }
 
 /// Refuses them where they leave no steady state, or nothing says what lies beyond them.
-pub(super) fn maps_that_travel(
-    judge: &mut Judge,
-    file: &CaseFile,
-    (files, _): Loading<'_>,
-    (kinematics, profile, laws): (Kinematics, Option<&Profile>, Option<&[&CoulombFriction]>),
-) {
+pub(super) fn maps_that_travel(judge: &mut Judge, known: &Known<'_>, kinematics: Kinematics) {
+    let Known { file, profile, laws, .. } = *known;
     let friction = laws.is_some_and(|laws| laws.iter().any(|law| law.is_map()));
     let heights = profile.is_some_and(|profile| !profile.heights.is_empty());
     let maps = [(friction, "a friction map"), (heights, "topography")];
     let given = file.kinematics.as_ref();
-    let steady = files.iter().find(|file| file.value.controls.are_steady());
-    let steady = steady.and_then(|file| file.value.controls.of("roll"));
-    let (span, why, help) = if let Some(steady) = steady.map(Given::span) {
+    let steady = known.loading().stages().find(|stage| stage.file.controls.are_steady());
+    let (span, why, help) = if let Some(steady) = steady.as_ref().map(Prescribed::roll) {
         (
             steady,
             "roll = \"steady\": places that differ pass by, and nothing becomes steady",
@@ -81,7 +71,6 @@ mod tests {
         let case = read(ROLLER, &[map, beyond, ("increments = 1\n", &and_back)]);
         assert_eq!(case.kinematics.beyond_maps, Some(BeyondMaps::Mirrors));
         refused(ROLLER, &[beyond, rolled], "without a map", "\"mirrors\"");
-        refused(ROLLER, &[beyond], "without a map", "\"mirrors\"");
         let steady = with("roll = \"steady\"");
         refused(
             ROLLER,

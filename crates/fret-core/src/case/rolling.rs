@@ -2,83 +2,63 @@
 
 use std::ops::Range;
 
-use super::control_keys::{BothOrOne, Given, LARGEST};
+use super::control_keys::{BothOrOne, LARGEST};
 use super::file::CaseFile;
 use super::judge::Judge;
-use super::misfits::{Loading, Misfit};
+use super::known::Known;
+use super::loading::Loading;
+use super::misfits::Misfit;
 use super::rolled_maps::{beyond_no_map, maps_that_travel};
 use super::stage_file::{IncrementsFile, StageFile};
 use crate::document::At;
 use crate::model::controls::{BULK_STRESS, FREEDOMS, Kind, ROLL, TANGENTIAL, TILT};
 use crate::model::stage::{Course, Stage, StageControl, along_x};
-use crate::model::{CoulombFriction, Dimension, Frame, Kinematics, Profile, Shape};
+use crate::model::{Dimension, Frame, Kinematics, Shape};
 
 /// Refuses what rolling cannot be combined with.
-pub(super) fn rolling(
-    judge: &mut Judge,
-    file: &CaseFile,
-    loading: Loading<'_>,
-    (kinematics, profile, laws): (Kinematics, Option<&Profile>, Option<&[&CoulombFriction]>),
-) {
+pub(super) fn rolling(judge: &mut Judge, known: &Known<'_>, kinematics: Kinematics) {
+    let loading = known.loading();
     rates(judge, loading);
     if kinematics.frame == Frame::Contact {
-        beyond_no_map(judge, file, (profile, laws));
+        beyond_no_map(judge, known);
     }
-    let (files, stages) = loading;
     let has_rolled = judge.attachments.start.as_ref().is_some_and(|start| start.roll != [0.0; 2]);
-    let rolls = has_rolled
-        || files.iter().any(|stage| stage.controls.of("roll").is_some())
-        || stages.is_some_and(|stages| stages.iter().any(Stage::rolls));
-    if !rolls {
+    if !(has_rolled || loading.stages().any(|stage| stage.rolls())) {
         return;
     }
     let roll = Misfit { freedoms: ROLL..FREEDOMS, motions: false, in_table: "a roll" };
+    let mut refuse = |why: &str, help: &str| roll.refuse(judge, loading, why, help);
     if kinematics.is_finite() {
-        let help = "displacement = \"small\": creepage is small against the distance rolled";
-        roll.refuse(
-            judge,
-            loading,
+        refuse(
             "with kinematics.displacement = \"finite\": surfaces that roll keep pace with each other",
-            help,
+            "displacement = \"small\": creepage is small against the distance rolled",
         );
     }
-    if !file.grid.periodicity().is_none() {
-        let one_axis = file.grid.periodicity().one_axis().is_some();
-        roll.refuse(
-            judge,
-            loading,
-            if one_axis {
-                "in a case that is periodic along one axis: contacts roll where nothing repeats"
-            } else {
-                "in a periodic case: the contact would roll into its own image"
-            },
+    let periodic = known.file.grid.periodicity();
+    if periodic.one_axis().is_some() {
+        refuse(
+            "in a case that is periodic along one axis: contacts roll where nothing repeats",
             "grid.periodic = false",
         );
+    } else if !periodic.is_none() {
+        refuse("in a periodic case: the contact would roll into its own image", "grid.periodic = false");
     }
     let can_roll = |shape: &Shape| shape.curvatures().is_some() || matches!(shape, Shape::Wave { .. });
-    if profile.is_some_and(|profile| !profile.shapes.iter().all(can_roll)) {
-        let help = "sphere, ellipsoid, or a cylinder without a length";
-        roll.refuse(
-            judge,
-            loading,
+    if known.profile.is_some_and(|profile| !profile.shapes.iter().all(can_roll)) {
+        refuse(
             "of a profile that does not roll: it has an edge, a flat or a tip, or is a formula",
-            help,
+            "sphere, ellipsoid, or a cylinder without a length",
         );
     }
-    beside(judge, loading, kinematics);
-    steady(judge, loading, kinematics);
-    if kinematics.frame == Frame::Contact {
-        in_the_frame_of_the_contact(judge, file, loading);
-        maps_that_travel(judge, file, loading, (kinematics, profile, laws));
-    }
-}
-
-/// Refuses controls that have no place beside a roll.
-fn beside(judge: &mut Judge, loading: Loading<'_>, kinematics: Kinematics) {
     if kinematics.frame == Frame::Bodies {
         let tilt = Misfit { freedoms: TILT..BULK_STRESS, motions: false, in_table: "a tilt" };
         let why = "of a contact that rolls, with kinematics.frame = \"bodies\": a tilt is about the middle of the grid, and the contact leaves it";
         tilt.refuse(judge, loading, why, "[kinematics] frame = \"contact\"");
+    }
+    steady(judge, loading, kinematics);
+    if kinematics.frame == Frame::Contact {
+        in_the_frame_of_the_contact(judge, known.file, loading);
+        maps_that_travel(judge, known, kinematics);
     }
 }
 
@@ -107,10 +87,9 @@ pub(super) fn direction(judge: &mut Judge, file: &StageFile) -> [f64; 2] {
 }
 
 /// Refuses what has no steady state.
-fn steady(judge: &mut Judge, (files, _): Loading<'_>, kinematics: Kinematics) {
-    for file in files.iter().filter(|file| file.value.controls.are_steady()) {
-        let stage = &file.value;
-        let span = stage.controls.of("roll").map_or_else(|| file.span(), Given::span);
+fn steady(judge: &mut Judge, loading: Loading<'_>, kinematics: Kinematics) {
+    for prescribed in loading.stages().filter(|stage| stage.file.controls.are_steady()) {
+        let (stage, span) = (&prescribed.file.value, prescribed.roll());
         let mut refuse = |why: &str, help: &str| {
             judge.refuse::<()>(span.clone(), format!("roll = \"steady\" {why}"), help)
         };
@@ -138,13 +117,13 @@ fn steady(judge: &mut Judge, (files, _): Loading<'_>, kinematics: Kinematics) {
             let why = format!("beside {}: what moves on steadily does so by distance rolled", given.way.name);
             refuse(&why, "creepage and spin, or a force");
         }
-        if stage.controls.0.iter().any(|given| (BULK_STRESS..ROLL).contains(&given.row.freedom)) {
+        if stage.controls.place(BULK_STRESS..ROLL).is_some() {
             refuse("beside a bulk stress that changes", "a stage for each");
         }
     }
-    let by_actuator =
-        files.iter().flat_map(|file| &file.value.controls.0).find(|given| given.way.kind == Kind::FarEnd);
-    if let (Some(given), true) = (by_actuator, files.iter().any(|file| file.value.controls.are_steady())) {
+    let mut controls = loading.files.iter().flat_map(|file| &file.controls.0);
+    let by_actuator = controls.find(|given| given.way.kind == Kind::FarEnd);
+    if let Some(given) = by_actuator.filter(|_| loading.is_steady()) {
         let help = "tangential_force, shift or creepage";
         judge.refuse::<()>(
             given.span(),
@@ -155,26 +134,19 @@ fn steady(judge: &mut Judge, (files, _): Loading<'_>, kinematics: Kinematics) {
 }
 
 /// Refuses what is fixed to bodies that travel through the grid.
-fn in_the_frame_of_the_contact(judge: &mut Judge, file: &CaseFile, (files, stages): Loading<'_>) {
-    // By a key, or by the columns of a table.
-    let checked = |index: usize| stages.and_then(|stages| stages.get(index));
-    let marched = || {
-        let rolls = move |(index, stage): &(usize, &At<StageFile>)| {
-            stage.value.controls.of("roll").is_some() || checked(*index).is_some_and(Stage::rolls)
-        };
-        files.iter().enumerate().filter(rolls).filter(|(_, stage)| !stage.value.controls.are_steady())
-    };
-    for (_, stage) in marched() {
-        if matches!(stage.value.increments, IncrementsFile::Auto(_)) {
+fn in_the_frame_of_the_contact(judge: &mut Judge, file: &CaseFile, loading: Loading<'_>) {
+    let marched = || loading.stages().filter(|stage| stage.rolls() && !stage.file.controls.are_steady());
+    for stage in marched() {
+        if matches!(stage.file.increments, IncrementsFile::Auto(_)) {
             judge.refuse::<()>(
-                stage.value.controls.of("roll").map_or_else(|| stage.span(), Given::span),
+                stage.roll(),
                 "roll with increments = \"auto\" and kinematics.frame = \"contact\": its increments are whole cells",
                 "a number of increments; one cell in each is enough",
             );
         }
     }
     // The bodies' frame has no steady state.
-    let help = if files.iter().any(|file| file.value.controls.are_steady()) {
+    let help = if loading.is_steady() {
         "roll = a distance in place of \"steady\", and frame = \"bodies\" on a grid that holds all of the way; or leave it out"
     } else {
         "frame = \"bodies\", on a grid that holds all of the way"
@@ -188,40 +160,33 @@ fn in_the_frame_of_the_contact(judge: &mut Judge, file: &CaseFile, (files, stage
     refuse(file.wear.as_ref().map(At::span), "wear");
     let evolution = file.friction.as_ref().and_then(|friction| friction.evolution.as_ref());
     refuse(evolution.map(At::span), "friction.evolution");
-    for (index, stage) in marched() {
-        let stress =
-            stage.value.controls.0.iter().find(|given| (BULK_STRESS..ROLL).contains(&given.row.freedom));
-        let by_table = stage.value.table.as_ref().filter(|_| checked(index).is_some_and(Stage::stretches));
-        refuse(
-            stress.map(Given::span).or(by_table.map(At::span)),
-            "a bulk stress that changes while the contact rolls",
-        );
+    for stage in marched() {
+        let stress = stage.file.controls.place(BULK_STRESS..ROLL).or(stage.by_table(Stage::stretches));
+        refuse(stress, "a bulk stress that changes while the contact rolls");
     }
 }
 
 /// Refuses creepage and spin where nothing, or not one way, is rolled.
-fn rates(judge: &mut Judge, (files, stages): Loading<'_>) {
-    for (index, file) in files.iter().enumerate() {
-        let stage = stages.and_then(|stages| stages.get(index));
-        let in_table = stage.is_some_and(|stage| {
-            stage.controls().any(|control| matches!(control, StageControl::Rate(_))) && file.table.is_some()
-        });
-        if let (true, Some(table)) = (in_table, &file.table) {
+fn rates(judge: &mut Judge, loading: Loading<'_>) {
+    let is_rate = |control: &StageControl| matches!(control, StageControl::Rate(_));
+    for stage in loading.stages() {
+        if let Some(table) = stage.by_table(|stage| stage.controls().any(is_rate)) {
             judge.refuse::<()>(
-                table.span(),
+                table,
                 "a table with a column of creepage or spin: they are the same all along a stage",
                 "a stage for each value; or shift_x, the creepage summed over the distance rolled",
             );
         }
-        for given in file.controls.0.iter().filter(|given| given.way.kind == Kind::Rate) {
+        let in_cycles = |stage: &Stage| !stage.steady && matches!(stage.course, Course::Cycles(_));
+        for given in stage.file.controls.0.iter().filter(|given| given.way.kind == Kind::Rate) {
             let name = given.way.name;
-            if file.controls.of("roll").is_none() {
+            if stage.file.controls.of("roll").is_none() {
                 judge.refuse::<()>(
                     given.span(),
                     format!("{name} without roll in its stage: it is a motion by distance rolled"),
                     "roll = [x, y], the distance rolled at the end of the stage",
                 );
-            } else if stage.is_some_and(|stage| !stage.steady && matches!(stage.course, Course::Cycles(_))) {
+            } else if stage.checked.is_some_and(in_cycles) {
                 judge.refuse::<()>(
                     given.span(),
                     format!("{name} in cycles: it is the same all along a stage"),

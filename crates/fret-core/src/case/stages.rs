@@ -3,7 +3,6 @@
 use std::fmt::Display;
 use std::ops::Range;
 
-use super::control_keys::Given;
 use super::controls::controls;
 use super::file::RigFile;
 use super::judge::Judge;
@@ -342,7 +341,7 @@ pub(super) fn sliding(
         let unit = judge.force_unit.clone();
         if stage.normal.is_some() && lowest[index] < 0.0 {
             judge.refuse::<()>(
-                file.controls.of("normal_force").map(Given::span).or(table.clone()).unwrap_or_default(),
+                file.controls.span_of("normal_force").or(table.clone()).unwrap_or_default(),
                 format!(
                     "load[{index}] ({name}).normal_force reaches {:?}{unit}: compression is positive, and the surfaces do not adhere",
                     lowest[index]
@@ -353,9 +352,9 @@ pub(super) fn sliding(
         }
         let (asked, bound) = worst[index];
         if asked > 0.0 && friction[index].largest() > 0.0 {
-            let span = file.controls.of("tangential_force").map(Given::span).or(table);
+            let span = file.controls.span_of("tangential_force").or(table);
             let key = if span.is_some() { "tangential_force" } else { "normal_force" };
-            let span = span.or(file.controls.of("normal_force").map(Given::span)).unwrap_or_default();
+            let span = span.or(file.controls.span_of("normal_force")).unwrap_or_default();
             let [asked, bound] = apart(asked, bound);
             judge.refuse::<()>(
                 span,

@@ -6,7 +6,6 @@ use super::control_keys::Given;
 use super::file::CaseFile;
 use super::judge::Judge;
 use super::known::Known;
-use crate::document::At;
 use crate::model::bulk::substrate;
 use crate::model::stage::Stage;
 use crate::model::{Body, ContactPair, Dimension, GridSize};
@@ -15,31 +14,25 @@ use crate::model::{Body, ContactPair, Dimension, GridSize};
 /// tilt on a grid whose size is left to the program.
 pub(super) fn bulk_and_tilt(judge: &mut Judge, known: &Known<'_>) {
     let Known { file: CaseFile { grid, .. }, bodies, size, .. } = *known;
-    let (stages, checked) = known.loading();
     let periodic = !grid.periodicity().is_none();
-    for (index, file) in stages.iter().enumerate() {
-        let file = &file.value;
-        let checked = checked.and_then(|checked| checked.get(index));
-        let in_table = |does: &dyn Fn(&Stage) -> bool| {
-            file.table.as_ref().filter(|_| checked.is_some_and(does)).map(At::span)
-        };
+    for stage in known.loading().stages() {
         let of_body =
-            |body: usize| in_table(&move |stage: &Stage| stage.bulk_stress[body].iter().any(Option::is_some));
-        let along_line = in_table(&|stage: &Stage| {
-            stage.tilt[1].is_some() || stage.bulk_stress.iter().any(|stress| stress[1].is_some())
-        });
-        let place = format!("load[{index}]");
-        let given = |name| file.controls.of(name);
-        let controls: [Control<'_>; 6] = [
-            ("tilt_moment", None, given("tilt_moment"), None),
-            ("tilt", None, given("tilt"), None),
-            ("a tilt", None, None, in_table(&Stage::tilts)),
-            ("bulk_stress", bodies.map(ContactPair::lower), given("bulk_stress"), None),
-            ("upper_bulk_stress", bodies.map(ContactPair::upper), given("upper_bulk_stress"), None),
+            |body: usize| stage.by_table(|stage| stage.bulk_stress[body].iter().any(Option::is_some));
+        let by_key = |key: &'static str, body: Option<fn(&ContactPair) -> &Body>| {
+            let given = stage.file.controls.of(key);
+            (key, bodies.zip(body).map(|(bodies, body)| body(bodies)), given, given.map(Given::span))
+        };
+        let place = format!("load[{}]", stage.index);
+        let controls = [
+            by_key("tilt_moment", None),
+            by_key("tilt", None),
+            ("a tilt", None, None, stage.by_table(Stage::tilts)),
+            by_key("bulk_stress", Some(ContactPair::lower)),
+            by_key("upper_bulk_stress", Some(ContactPair::upper)),
             ("bulk_stress", None, None, of_body(0).or(of_body(1))),
         ];
-        for (key, body, given, table) in controls {
-            let Some(span) = given.map(Given::span).or(table) else { continue };
+        for (key, body, given, span) in controls {
+            let Some(span) = span else { continue };
             if periodic {
                 judge.refuse::<()>(
                     span,
@@ -64,6 +57,9 @@ pub(super) fn bulk_and_tilt(judge: &mut Judge, known: &Known<'_>) {
                 );
             }
         }
+        let along_line = stage.by_table(|stage| {
+            stage.tilt[1].is_some() || stage.bulk_stress.iter().any(|stress| stress[1].is_some())
+        });
         if let (Dimension::Line, Some(span)) = (judge.dimension, along_line) {
             judge.refuse::<()>(
                 span,
@@ -81,9 +77,6 @@ pub(super) fn bulk_and_tilt(judge: &mut Judge, known: &Known<'_>) {
         }
     }
 }
-
-/// A key, the body that it stretches, what is given, where a table prescribes it.
-type Control<'a> = (&'a str, Option<&'a Body>, Option<&'a Given>, Option<Range<usize>>);
 
 fn one_or_two(judge: &mut Judge, place: &str, key: &str, given: &Given) {
     let (message, help) = match (given.values.len(), judge.dimension) {

@@ -42,6 +42,17 @@ impl<R> Column<R> {
         }
     }
 
+    /// Its value in a record as files in JSON have it; null where the record lacks a number.
+    pub fn json(&self, record: &R) -> serde_json::Value {
+        match self.value {
+            Value::Count(of) => of(record).into(),
+            Value::Real(of) => of(record).into(),
+            Value::RealOrNone(of) | Value::RealOrZero(of) => of(record).into(),
+            Value::Truth(of) => of(record).into(),
+            Value::Word(of) => of(record).into(),
+        }
+    }
+
     /// Its unit where all rows are driven so; empty where some rows are driven otherwise (`None`) and it has another unit there.
     pub fn unit_driven(&self, drive: Option<Drive>) -> &'static str {
         match (self.turning, drive) {

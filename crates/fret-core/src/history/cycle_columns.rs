@@ -161,7 +161,7 @@ mod tests {
 
     use serde_json::json;
 
-    use super::super::columns::{STEP_COLUMNS, Value, regime_word};
+    use super::super::columns::{STEP_COLUMNS, regime_word};
     use super::*;
     use crate::solver::Regime;
 
@@ -193,14 +193,7 @@ mod tests {
         let entries = serde_json::to_value(&record).unwrap();
         assert_eq!(names(CYCLE_COLUMNS), entries.as_object().unwrap().keys().map(String::as_str).collect());
         for column in CYCLE_COLUMNS {
-            let value = match column.value {
-                Value::Count(of) => json!(of(&record)),
-                Value::Real(of) => json!(of(&record)),
-                Value::RealOrNone(of) | Value::RealOrZero(of) => json!(of(&record)),
-                Value::Truth(of) => json!(of(&record)),
-                Value::Word(of) => json!(of(&record)),
-            };
-            assert_eq!(value, entries[column.name], "{}", column.name);
+            assert_eq!(column.json(&record), entries[column.name], "{}", column.name);
         }
     }
 

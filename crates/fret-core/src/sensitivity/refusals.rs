@@ -5,7 +5,7 @@ use ndarray::s;
 use super::error::SensitivityError;
 use super::objective::Objective;
 use super::parameter::Parameter;
-use crate::case::{Case, Stage, StageControl};
+use crate::case::{Stage, StageControl};
 use crate::kernel::uniform_response;
 use crate::model::{CoulombFriction, Integration, WearRule};
 use crate::plan::{Coupling, Plan, Simplification};

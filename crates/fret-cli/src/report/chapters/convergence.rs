@@ -2,9 +2,9 @@
 
 use maud::{Markup, html};
 
-use crate::drawing::{Chart, Curve, Label, Stroke, joined};
 use crate::figures::duration;
-use crate::report::{Overview, chapter, pairs, side_by_side};
+use crate::report::{Overview, chapter, joined, pairs, side_by_side};
+use fret_drawing::{Chart, Curve, Label, Stroke};
 
 /// Residuals and work.
 pub fn convergence(view: &Overview<'_>) -> Markup {

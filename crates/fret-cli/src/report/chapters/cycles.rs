@@ -3,8 +3,8 @@
 use fret_core::history::CycleRecord;
 use maud::{Markup, html};
 
-use crate::drawing::{Chart, Curve, Label, ends};
 use crate::report::{Measured, Overview, chapter, side_by_side};
+use fret_drawing::{Axis, Chart, Curve, Label};
 
 /// With fewer cycles there is nothing to see over their number.
 const FEWEST: usize = 3;
@@ -35,7 +35,7 @@ pub fn cycles(view: &Overview<'_>) -> Markup {
     let reads: [fn(&CycleRecord) -> f64; 2] =
         [|cycle| cycle.force_amplitude, |cycle| cycle.displacement_amplitude];
     for ((name, kind), value) in amplitudes.into_iter().zip(reads) {
-        let [low, high] = ends(cycles.iter().map(value));
+        let [low, high] = Axis::ends(cycles.iter().map(value));
         if high - low > SEEN * high {
             figures.push(chart(name, kind, &value).figure(&format!("{name} of each cycle.")));
         }

@@ -1,10 +1,12 @@
 //! Dissipated energy, over the increments and by cycle.
 
+use fret_core::history::CycleRecord;
 use fret_core::study::{PartialSlip, TangentialForm};
 use maud::{Markup, html};
 
-use crate::drawing::{Chart, Curve, joined};
-use crate::report::{Measured, Overview, chapter, deviation, side_by_side, table};
+use crate::report::{Measured, Overview, chapter, deviation, grid, joined, side_by_side};
+use crate::table::{Cell, Columns};
+use fret_drawing::{Chart, Curve};
 
 /// Cycles listed one by one.
 const MOST_CYCLES: usize = 12;
@@ -50,39 +52,33 @@ fn account(view: &Overview<'_>) -> Option<Markup> {
         return None;
     }
     let skipped = cycles.len().saturating_sub(MOST_CYCLES);
-    let mut head = vec!["cycle", "dissipated in one"];
-    if form_of(view).is_some() {
-        head.extend(["closed form", "difference"]);
-    }
     let shown = cycles.iter().take(1).chain(cycles.iter().skip(1 + skipped));
-    let rows: Vec<Vec<String>> = shown
-        .map(|cycle| {
-            let (before, last) = (cycle.first_increment.checked_sub(1), cycle.last_increment);
-            let computed = cycle.dissipated_energy;
+    let mut columns = Columns::<CycleRecord>::new()
+        .column("cycle", "", |cycle| {
             let which = match cycle.stands_for {
                 1 => cycle.last_cycle.to_string(),
                 all => format!("{} to {}", (cycle.last_cycle + 1).saturating_sub(all), cycle.last_cycle),
             };
-            let mut row = vec![
-                format!("{}, {which}", view.stage_name(cycle.stage)),
-                view.number(computed, "force x length"),
-            ];
-            if let Some(form) = form_of(view) {
-                // Before its first increment the closed form has dissipated nothing.
-                let started =
-                    before.map_or(0.0, |before| form.after(before).map_or(0.0, |_| at(form, before)));
-                let exact = at(form, last) - started;
-                row.extend(if exact.is_finite() {
-                    [view.number(exact, "force x length"), deviation(computed, exact)]
-                } else {
-                    ["–".to_owned(), "–".to_owned()]
-                });
-            }
-            row
+            format!("{}, {which}", view.stage_name(cycle.stage))
         })
-        .collect();
+        .column("dissipated in one", "force x length", |cycle| cycle.dissipated_energy);
+    if let Some(form) = form_of(view) {
+        let exact = |cycle: &CycleRecord| {
+            // Before its first increment the closed form has dissipated nothing.
+            let before = cycle.first_increment.checked_sub(1).filter(|before| form.after(*before).is_some());
+            let exact = at(form, cycle.last_increment) - before.map_or(0.0, |before| at(form, before));
+            exact.is_finite().then_some(exact)
+        };
+        columns = columns
+            .column("closed form", "force x length", move |cycle| {
+                exact(cycle).map_or("-".into(), Cell::Number)
+            })
+            .column("difference", "", move |cycle| {
+                exact(cycle).map_or("-".to_owned(), |exact| deviation(cycle.dissipated_energy, exact))
+            });
+    }
     Some(html! {
-        (table(&head, &rows))
+        (grid(&columns, shown, |value, kind| view.number(value, kind)))
         @if skipped > 0 { p class="small" { "The first cycle and the last " (MOST_CYCLES - 1) " of " (cycles.len()) "." } }
     })
 }

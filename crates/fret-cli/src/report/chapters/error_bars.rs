@@ -3,9 +3,9 @@
 use fret_results::ERROR_BARS;
 use maud::{Markup, html};
 
-use crate::estimate::{BarRow, BarsRecord, Cell, Estimate};
 use crate::failure::Failure;
 use crate::report::{Measured, Overview, chapter, number, read_answer, short, table};
+use crate::run::{BarRow, BarsRecord, Cell, Estimate};
 
 /// What brings them back where the file cannot be read.
 const AGAIN: &str = "fret run --resume --estimate-error writes it again";

@@ -6,13 +6,12 @@ use maud::{Markup, PreEscaped, html};
 use serde_json::{Value, json};
 
 use super::loading::loop_curves;
-use super::moment::{Ground, Moment, largest};
-use super::sections::seen;
+use super::moment::{Ground, Moment};
 use super::zones::legend;
-use crate::drawing::{Chart, Curve, Frame, Map, Stroke, ends, figure_of, joined};
 use crate::failure::Failure;
-use crate::figures::percent;
+use crate::figures::{largest, percent};
 use crate::report::{Measured, Overview, chapter};
+use fret_drawing::{Axis, Chart, Curve, Drawing, Frame, Map};
 
 /// Increments that the slider shows, at most, and at least where there are so many.
 const MOST: usize = 120;
@@ -63,11 +62,11 @@ impl Ground<'_> {
         let path = self.loop_chart(now);
         let loop_frame = path.frame();
         let sections = self.section_charts(moments, now);
-        let frames: Vec<Frame> = sections.iter().map(|(chart, _)| chart.frame()).collect();
+        let frames = sections.each_ref().map(|section| section.as_ref().map(|(chart, _)| chart.frame()));
         let changes: Vec<Value> =
             moments.iter().map(|moment| self.changes(moment, &loop_frame, &frames)).collect();
         let mut figures = vec![path.figure("The increment on the path of the load.")];
-        figures.extend(sections.iter().map(|(chart, caption)| chart.figure(caption)));
+        figures.extend(sections.iter().flatten().map(|(chart, caption)| chart.figure(caption)));
         figures.extend(self.maps(now)?);
         let body = html! {
             @if moments.len() > 1 {
@@ -104,97 +103,12 @@ impl Ground<'_> {
         let what = format!("{} over {}", labels[1].name, labels[0].name);
         let here = points.get(now.increment).copied().unwrap_or([f64::NAN; 2]);
         let curves = loop_curves(self.view).into_iter().map(|curve| Curve { name: None, ..curve }).collect();
-        let range = |axis: usize| Some(ends(points.iter().map(|point| point[axis])));
+        let range = |axis: usize| Some(Axis::ends(points.iter().map(|point| point[axis])));
         Chart {
             here: Some((here, "here")),
             ranges: [range(0), range(1)],
             ..Chart::new(&what, labels, curves)
         }
-    }
-
-    fn points(&self, values: &[f64]) -> Vec<[f64; 2]> {
-        joined(&self.section.along, values)
-    }
-
-    /// Charts of the section with their captions: pressure, and shear with its bound.
-    fn section_charts(&self, moments: &[Moment], now: &Moment) -> Vec<(Chart, String)> {
-        let all: Vec<&[f64]> = moments.iter().map(|moment| moment.pressure.as_slice()).collect();
-        let along = &self.section.along;
-        let [first, last] = seen(along, &all);
-        let x = Some([along[first], along[last]]);
-        let label = || self.view.label(self.section.name(), "length");
-        let curve = |values: &[f64], id: &'static str, name: &str| Curve {
-            id: Some(id),
-            ..Curve::line(self.points(values), name, 0)
-        };
-        let high = all.iter().map(|values| largest(*values)).fold(0.0, f64::max);
-        let pressure = Chart {
-            ranges: [x, Some([0.0, high])],
-            ..Chart::new(
-                "pressure along a line through the contact",
-                [label(), self.view.label("pressure", "pressure")],
-                vec![Curve { name: None, ..curve(&now.pressure, "pressure-line", "") }],
-            )
-        };
-        let mut charts = vec![(pressure, "Pressure along a line through the middle.".to_owned())];
-        if self.has_shear {
-            let bounds = moments.iter().filter_map(|moment| moment.bound.as_ref());
-            let most =
-                moments.iter().map(|moment| &moment.shear).chain(bounds).map(largest).fold(0.0, f64::max);
-            let mut curves = Vec::new();
-            if let Some(bound) = &now.bound {
-                let below: Vec<f64> = bound.iter().map(|bound| -bound).collect();
-                let dashed = |curve: Curve| Curve { colour: 1, ..curve }.drawn(Stroke::Dashed);
-                curves.push(dashed(curve(bound, "bound-above", "± the friction bound")));
-                curves.push(Curve { name: None, ..dashed(curve(&below, "bound-below", "")) });
-            }
-            curves.push(curve(&now.shear, "shear-line", self.shear_name));
-            let axes = [label(), self.view.label("shear", "pressure")];
-            let chart = Chart {
-                ranges: [x, Some([-most, most])],
-                ..Chart::new("shear along a line through the contact", axes, curves)
-            };
-            charts.push((
-                chart,
-                "Shear along the same line; where it reaches the bound the contact slips.".to_owned(),
-            ));
-        }
-        if let Some([lower, upper]) = &now.surfaces {
-            charts.push(self.surfaces_chart(moments, [lower, upper], [along[first], along[last]]));
-        }
-        charts
-    }
-
-    /// The surfaces over the contact and as far as they move beside it.
-    fn surfaces_chart(
-        &self,
-        moments: &[Moment],
-        now: [&Vec<f64>; 2],
-        [from, to]: [f64; 2],
-    ) -> (Chart, String) {
-        let way = largest(&self.view.shift);
-        let shown = |(s, _): &(&f64, &f64)| (from - way..=to + way).contains(*s);
-        let heights = moments.iter().flat_map(|moment| moment.surfaces.iter().flatten());
-        let heights = heights.flat_map(|values| self.section.along.iter().zip(values).filter(shown));
-        let axes = [self.view.label(self.section.name(), "length"), self.view.label("height", "length")];
-        let curve = |values: &[f64], id: &'static str, name: &str, colour: usize| Curve {
-            id: Some(id),
-            ..Curve::line(self.points(values), name, colour)
-        };
-        let curves = vec![
-            curve(now[0], "lower-surface", "lower body", 0),
-            curve(now[1], "upper-surface", "upper body", 1),
-        ];
-        let chart = Chart {
-            ranges: [
-                Some([from - way, to + way]),
-                Some(ends(heights.map(|(_, height)| *height).filter(|height| height.is_finite()))),
-            ],
-            ..Chart::new("surfaces along a line through the contact", axes, curves)
-        };
-        let caption = "The surfaces along the same line, worn and not deformed, brought together until they touch on it; the upper one moves with \
-                       its body.";
-        (chart, caption.to_owned())
     }
 
     fn maps(&self, now: &Moment) -> Result<Vec<Markup>, Failure> {
@@ -210,7 +124,7 @@ impl Ground<'_> {
         let mut add =
             |what: &str, bar: Option<&str>, most: f64, below: Markup, caption: &str| -> Result<(), Failure> {
                 let drawing = map_of(place, what, bar, most).drawing()?.in_page();
-                figures.push(figure_of(&html! { (drawing) (below) }, caption));
+                figures.push(Drawing::captioned(&html! { (drawing) (below) }, caption));
                 place += 1;
                 Ok(())
             };
@@ -264,7 +178,7 @@ impl Ground<'_> {
     }
 
     /// What the slider changes: attributes, or the text, of the elements of the page.
-    fn changes(&self, moment: &Moment, loop_frame: &Frame, sections: &[Frame]) -> Value {
+    fn changes(&self, moment: &Moment, loop_frame: &Frame, sections: &[Option<Frame>; 3]) -> Value {
         let mut changes = serde_json::Map::new();
         for (_, id, words) in self.words(moment) {
             changes.insert(id.to_owned(), json!({ "text": words }));
@@ -273,31 +187,13 @@ impl Ground<'_> {
         for [x, y] in here.into_iter().flatten() {
             changes.insert("here".to_owned(), json!({ "cx": format!("{x:.1}"), "cy": format!("{y:.1}") }));
         }
-        let mut line = |id: &str, frame: &Frame, values: &[f64]| {
-            changes.insert(id.to_owned(), json!({ "d": frame.path(&self.shown_part(frame, values)) }));
-        };
-        line("pressure-line", &sections[0], &moment.pressure);
-        if let Some(frame) = sections.get(1).filter(|_| self.has_shear) {
-            line("shear-line", frame, &moment.shear);
-            if let Some(bound) = &moment.bound {
-                line("bound-above", frame, bound);
-                line("bound-below", frame, &bound.iter().map(|bound| -bound).collect::<Vec<_>>());
-            }
-        }
-        if let (Some([lower, upper]), Some(frame)) = (&moment.surfaces, sections.last()) {
-            line("lower-surface", frame, lower);
-            line("upper-surface", frame, upper);
+        for (id, path) in self.section_paths(moment, sections) {
+            changes.insert(id.to_owned(), json!({ "d": path }));
         }
         for (place, address) in moment.images.iter().enumerate() {
             changes.insert(format!("map-{place}"), json!({ "href": address }));
         }
         Value::Object(changes)
-    }
-
-    /// The points of a section that lie in its frame.
-    fn shown_part(&self, frame: &Frame, values: &[f64]) -> Vec<[f64; 2]> {
-        let [low, high] = frame.axes[0].range;
-        self.points(values).into_iter().filter(|[s, _]| (low..=high).contains(s)).collect()
     }
 }
 

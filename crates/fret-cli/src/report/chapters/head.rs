@@ -4,8 +4,7 @@ use fret_core::history::WornTo;
 use fret_core::study::pressure_of_run_is_unbounded;
 use maud::{Markup, html};
 
-use super::moment::largest;
-use crate::figures::{capitalised, counted, duration, percent};
+use crate::figures::{capitalised, counted, duration, largest, percent};
 use crate::loop_numbers::sliding_condition;
 use crate::report::{Measured, Overview, short};
 

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::commands::heat_record::HeatRecord;
+use crate::heat::HeatRecord;
 use crate::report::{Measured, Overview, answer_beside, chapter, pairs};
 use fret_results::HEAT;
 

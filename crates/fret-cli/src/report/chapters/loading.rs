@@ -5,8 +5,8 @@ use fret_core::study::{PartialSlip, TangentialForm};
 use maud::{Markup, html};
 
 use super::loop_table::loop_table;
-use crate::drawing::{Chart, Curve, Label, Stroke, joined};
-use crate::report::{Measured, Overview, chapter, side_by_side};
+use crate::report::{Measured, Overview, chapter, joined, side_by_side};
+use fret_drawing::{Chart, Curve, Label, Stroke};
 
 /// Earlier cycles that are drawn behind the last one.
 const MOST_BEHIND: usize = 8;

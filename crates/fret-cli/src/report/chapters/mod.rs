@@ -13,6 +13,7 @@ mod loop_table;
 mod moment;
 mod question;
 mod rolling;
+mod section_charts;
 mod sections;
 mod stress;
 mod surfaces;

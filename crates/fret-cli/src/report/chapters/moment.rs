@@ -3,6 +3,7 @@
 use ndarray::{Array2, Zip};
 
 use crate::failure::Failure;
+use crate::figures::largest;
 use crate::report::chapters::sections::shear_direction;
 use crate::report::chapters::surfaces;
 use crate::report::{Overview, Section, Window};
@@ -32,11 +33,6 @@ pub struct Ground<'a> {
     pub window: Window,
     /// Largest pressure and largest shear of a cell.
     pub most: [f64; 2],
-}
-
-/// The largest magnitude.
-pub fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
-    values.into_iter().fold(0.0, |most: f64, value| most.max(value.abs()))
 }
 
 impl<'a> Ground<'a> {
@@ -106,6 +102,6 @@ impl<'a> Ground<'a> {
     /// A field in false colours where there is contact.
     fn image(&self, field: &Array2<f64>, pressure: &Array2<f64>, most: f64) -> Result<String, Failure> {
         let value = |cell: [usize; 2]| if pressure[cell] > 0.0 { field[cell] } else { f64::NAN };
-        self.window.part().values([0.0, most], value)
+        Ok(self.window.part().values([0.0, most], value)?)
     }
 }

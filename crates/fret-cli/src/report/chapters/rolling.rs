@@ -4,9 +4,9 @@ use maud::{Markup, html};
 
 use super::loading::{loop_curves, stick_fraction};
 use super::loop_table::loop_table;
-use crate::drawing::{Chart, Curve, ends, joined};
 use crate::figures::capitalised;
-use crate::report::{Measured, Overview, Rolled, chapter, side_by_side, table};
+use crate::report::{Measured, Overview, Rolled, chapter, joined, side_by_side, table};
+use fret_drawing::{Axis, Chart, Curve};
 
 /// What changes by less than this fraction of itself along the way does not change.
 const SEEN: f64 = 1e-6;
@@ -95,7 +95,7 @@ fn over_distance(view: &Overview<'_>, rolled: &Rolled) -> Vec<Markup> {
     };
     for column in &rolled.columns {
         let (name, values) = (column.in_words(), rolled.where_it_rolls(history.column(column.name)));
-        let [low, high] = ends(values[from..to].iter().copied());
+        let [low, high] = Axis::ends(values[from..to].iter().copied());
         if high - low <= SEEN * low.abs().max(high.abs()) {
             continue; // prescribed, and told above
         }

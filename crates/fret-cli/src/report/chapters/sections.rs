@@ -3,10 +3,10 @@
 use fret_core::model::{Control, Dimension};
 use maud::{Markup, html};
 
-use crate::drawing::{Chart, Curve, Stroke};
 use crate::failure::Failure;
 use crate::figures::capitalised;
 use crate::report::{Measured, Overview, Section, chapter, side_by_side};
+use fret_drawing::{Chart, Curve, Stroke};
 
 /// Curves of a section, at most.
 const MOST_SECTIONS: usize = 4;

@@ -7,12 +7,12 @@ use base64::prelude::{BASE64_STANDARD, Engine};
 use fret_core::units::Units;
 use maud::{Markup, html};
 
-use crate::commands::stress_kinds::{kind_of_stress, stress_called};
-use crate::commands::stress_record::{FilmRecord, LargestRecord, ParameterRecord, StressRecord};
-use crate::drawing::{Chart, Curve, figure_of};
 use crate::figures::{bounded, capitalised};
 use crate::report::{Measured, Overview, answer_beside, chapter, grid, side_by_side};
+use crate::stress::{FilmRecord, LargestRecord, ParameterRecord, StressRecord};
+use crate::stress::{kind_of_stress, stress_called};
 use crate::table::{Cell, Columns};
+use fret_drawing::{Chart, Curve, Drawing};
 use fret_results::STRESS;
 
 /// Pictures that are shown, at most.
@@ -41,7 +41,7 @@ pub fn stress(view: &Overview<'_>) -> Markup {
     let number = |value: f64, kind: &str| view.number(value, kind);
     let mut figures: Vec<Markup> = over_depth(view, &folder, &record).into_iter().collect();
     for (name, address) in pictures(&folder, &record) {
-        figures.push(figure_of(&html! { img class="picture" alt=(name) src=(address); }, &name));
+        figures.push(Drawing::captioned(&html! { img class="picture" alt=(name) src=(address); }, &name));
     }
     let body = html! {
         p { "In the " (record.body) " body, from the kept tractions. Maxima over all increments and depths:" }

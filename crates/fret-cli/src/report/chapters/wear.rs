@@ -2,12 +2,12 @@
 
 use maud::{Markup, html};
 
-use crate::drawing::{Chart, Curve, Map, figure_of};
 use crate::failure::Failure;
 use crate::report::chapters::sections::seen;
 use crate::report::chapters::surfaces::OWN_DEPTHS;
 use crate::report::{Measured, Overview, Section, Window, chapter, pairs, side_by_side};
-use crate::summary::volumes_by_layer;
+use crate::run::volumes_by_layer;
+use fret_drawing::{Chart, Curve, Drawing, Map};
 
 /// Sections, at most.
 const MOST: usize = 5;
@@ -87,7 +87,7 @@ fn scar_figures(
     Ok([
         Chart::new(&format!("{what} along a line through the contact"), axes, curves)
             .figure(&format!("Wear depth of {}, along a line through the middle.", scar.of)),
-        figure_of(&map.drawing()?.in_page(), &format!("Wear depth of {} at the end.", scar.of)),
+        Drawing::captioned(&map.drawing()?.in_page(), &format!("Wear depth of {} at the end.", scar.of)),
     ])
 }
 

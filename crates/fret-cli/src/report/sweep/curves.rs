@@ -2,11 +2,12 @@
 
 use maud::{Markup, html};
 
-use super::view::{View, spoken};
-use crate::drawing::{Chart, Curve, ends};
+use super::view::View;
+use super::words::spoken;
 use crate::figures::capitalised;
 use crate::report::{chapter, side_by_side};
 use crate::sweep::columns::SummaryColumn;
+use fret_drawing::{Axis, Chart, Curve};
 
 /// Numbers that are drawn where they vary, the most asked first.
 const DRAWN: [&str; 22] = [
@@ -60,7 +61,7 @@ pub fn curves(view: &View) -> Markup {
 }
 
 fn varies(column: &SummaryColumn) -> bool {
-    let [low, high] = ends(column.numbers());
+    let [low, high] = Axis::ends(column.numbers());
     high - low > ROUNDING * low.abs().max(high.abs())
 }
 
@@ -77,7 +78,7 @@ fn drawn(view: &View, column: &SummaryColumn, across: usize, others: &[usize]) -
         let name = Some(name).filter(|name| !name.is_empty());
         curves.extend(Curve { name, colour: place % COLOURS, ..Curve::plain(points) }.dotted());
     }
-    let [low, high] = ends(numbers.iter().copied());
+    let [low, high] = Axis::ends(numbers.iter().copied());
     let chart = Chart {
         logarithmic: low > 0.0 && high > 30.0 * low,
         ..Chart::new(&spoken(&column.name), [view.key_label(across), view.label_of(column)], curves)

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::points::MOST_LOOPS;
 use super::view::View;
-use crate::drawing::{Axis, Drawing, Frame, ends, figure_of, room_for};
+use fret_drawing::{Axis, Drawing, Frame};
 
 const WIDTH: f64 = 480.0;
 const HEIGHT: f64 = 340.0;
@@ -27,7 +27,7 @@ pub fn maps(view: &View) -> Option<Markup> {
     groups.truncate(MOST_MAPS);
     Some(html! {
         @for (name, points) in &groups {
-            (figure_of(&drawn(view, [across, up], points).in_page(), name))
+            (Drawing::captioned(&drawn(view, [across, up], points).in_page(), name))
         }
         (legend(view))
         @if all > MOST_MAPS { p class="small" { (MOST_MAPS) " of " (all) " maps; the table below has all points." } }
@@ -44,7 +44,7 @@ fn chosen(view: &View, axes: &[usize]) -> Option<[usize; 2]> {
 /// The axis of a key, over all points of the sweep.
 fn axis_of(view: &View, key: usize, ticks: usize) -> Axis {
     let values = || (0..view.record.points.len()).map(|point| view.position(key, point));
-    let [low, high] = ends(values());
+    let [low, high] = Axis::ends(values());
     if low > 0.0 && high > WIDE * low {
         return Axis::logarithmic(values(), 6);
     }
@@ -55,8 +55,7 @@ fn axis_of(view: &View, key: usize, ticks: usize) -> Axis {
 
 fn drawn(view: &View, [across, up]: [usize; 2], points: &[usize]) -> Drawing {
     let axes = [axis_of(view, across, 6), axis_of(view, up, 6)];
-    let left = room_for(&axes[1]);
-    let frame = Frame { axes, across: [left, WIDTH - 18.0], down: [16.0, HEIGHT - 45.0], downward: false };
+    let frame = Frame::new(axes, WIDTH - 18.0, [16.0, HEIGHT - 45.0]);
     let content = html! {
         (frame.drawn([&view.key_label(across), &view.key_label(up)]))
         @for &point in points {

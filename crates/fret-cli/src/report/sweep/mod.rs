@@ -1,13 +1,14 @@
 //! A sweep in one page: fretting map, curves over an axis, uncertainty, and every point with its loop. Links choose the point that is
 //! shown; no script is needed for it.
 //!
-//! From the ground: `view` (what a folder holds), `fretting_map`, `curves`, `points`, `spread`, and the page itself here.
+//! From the ground: `words` (what keys and columns are called), `view` (what a folder holds), `fretting_map`, `curves`, `points`, `spread`, and the page itself here.
 
 mod curves;
 mod fretting_map;
 mod points;
 mod spread;
 mod view;
+mod words;
 
 use std::path::Path;
 
@@ -18,7 +19,7 @@ use crate::failure::Failure;
 use crate::figures::counted;
 use crate::sweep::Counts;
 use view::View;
-pub use view::called;
+pub use words::called;
 
 /// The page of a sweep, and how many points it has.
 ///

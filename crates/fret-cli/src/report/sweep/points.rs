@@ -2,10 +2,11 @@
 
 use maud::{Markup, html};
 
-use super::view::{View, called, spoken};
-use crate::drawing::{Chart, Curve};
+use super::view::View;
+use super::words::{called, spoken};
 use crate::report::{Measured, chapter, pairs};
 use crate::sweep::Path;
+use fret_drawing::{Chart, Curve};
 
 /// Points that stand in the page each with its loop, at the most: links lead to these.
 pub const MOST_LOOPS: usize = 500;

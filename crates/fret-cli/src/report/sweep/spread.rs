@@ -6,11 +6,12 @@ use fret_core::uncertainty::{Distribution, Sensitivity};
 use maud::{Markup, html};
 use serde_json::{Value, json};
 
-use super::view::{View, called, spoken};
-use crate::drawing::{Chart, Curve, Label, Stroke};
+use super::view::View;
+use super::words::{called, spoken};
 use crate::figures::{bounded, figure};
 use crate::report::{Measured, chapter, grid, side_by_side};
 use crate::sweep::{Quantities, QuantityRecord, SpreadRecord};
+use fret_drawing::{Chart, Curve, Label, Stroke};
 
 /// Numbers that vary by less, relative, do not.
 const ROUNDING: f64 = 1e-9;

@@ -1,8 +1,7 @@
 //! Fields as images: PNG in a `data:` address, so that a page or an SVG holds them itself.
 
 use base64::prelude::{BASE64_STANDARD, Engine};
-
-use crate::failure::Failure;
+use png::EncodingError;
 
 /// Colours from low to high: matplotlib's viridis at 16 places, straight in between. Even in lightness, also for the colour-blind.
 const VIRIDIS: [[u8; 3]; 16] = [
@@ -42,12 +41,12 @@ pub struct Raster {
     cover: Vec<u8>,
 }
 
-/// How many pixels show so many cells.
-pub fn pixels_for(cells: usize) -> usize {
-    cells.min(FINEST)
-}
-
 impl Raster {
+    /// How many pixels along each side show so many cells.
+    pub fn pixels_for(cells: [usize; 2]) -> [usize; 2] {
+        cells.map(|cells| cells.min(FINEST))
+    }
+
     /// Values between `low` and `high` in colours of the scale; what is no number stays clear.
     pub fn of_values(size: [usize; 2], [low, high]: [f64; 2], value: impl Fn(usize, usize) -> f64) -> Self {
         let level = |value: f64| {
@@ -79,12 +78,14 @@ impl Raster {
     }
 
     /// The image as an address that holds it.
-    pub fn address(&self) -> Result<String, Failure> {
-        let png = self.png().map_err(|error| Failure::Defect(format!("an image of the page: {error}")))?;
-        Ok(format!("data:image/png;base64,{}", BASE64_STANDARD.encode(png)))
+    ///
+    /// # Errors
+    /// When it has no pixels.
+    pub fn address(&self) -> Result<String, EncodingError> {
+        Ok(format!("data:image/png;base64,{}", BASE64_STANDARD.encode(self.png()?)))
     }
 
-    fn png(&self) -> Result<Vec<u8>, png::EncodingError> {
+    fn png(&self) -> Result<Vec<u8>, EncodingError> {
         let mut file = Vec::new();
         let [width, height] = self.size;
         let mut encoder = png::Encoder::new(&mut file, width as u32, height as u32);
@@ -148,7 +149,7 @@ mod tests {
         assert_eq!((seen[0][3], seen[3][3]), (0, 0));
         let shown = seen[1..3].iter().map(|[r, g, b, cover]| (format!("#{r:02x}{g:02x}{b:02x}"), *cover));
         for ((colour, cover), name) in shown.zip(["--stick", "--slip"]) {
-            assert!(crate::drawing::STYLE.contains(&format!("{name}: {colour};")), "{name}: {colour}");
+            assert!(crate::Drawing::STYLE.contains(&format!("{name}: {colour};")), "{name}: {colour}");
             assert_eq!(cover, 255);
         }
     }

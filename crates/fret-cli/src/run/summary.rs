@@ -12,14 +12,15 @@ use fret_core::units::Units;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::estimate::Estimate;
+use super::estimate::Estimate;
+use super::methods::paragraph;
 use crate::failure::Failure;
 use crate::figures::{
     LONGEST_TITLE, NAMES, counted, duration, figure, figure_beside, figure_in, percent, shortened,
     side_by_side,
 };
 use crate::loop_numbers::{loop_numbers, sliding_condition};
-use crate::methods::paragraph;
+use crate::plan_words::warning_line;
 use crate::study::words::GROWS;
 use fret_results::{Tally, commit::COMMIT};
 
@@ -332,14 +333,6 @@ struct CycleAnswer<'a> {
     #[serde(flatten)]
     cycle: &'a CycleRecord,
     stage: &'a str,
-}
-
-/// Letters of a warning, at the most: the name of a stage may be long.
-const LONGEST_LINE: usize = 1000;
-
-/// A warning in a line: words and a way out.
-pub fn warning_line(warning: &Warning) -> String {
-    shortened(&format!("warning: {}; {}", warning.message, warning.help), LONGEST_LINE)
 }
 
 /// Volumes that the layers of each body have lost, from the surface down.

@@ -37,20 +37,16 @@ pub fn loaded_surfaces(
         let even = run.even_stress(request.body, increment);
         surfaces.push(LoadedSurface { increment, pressure, shear, slip, even });
     }
-    let shown = folder.display();
-    if surfaces.is_empty() {
-        return Err(Failure::call(
-            format!("{shown}: holds no tractions: the pressure of no increment was kept"),
-            "run the case again with output.fields = [\"pressure\", \"shear\", ...]",
-        ));
-    }
-    if !run.is_frictionless() && surfaces.iter().any(|surface| surface.shear.is_none()) {
-        return Err(Failure::call(
-            format!("{shown}: holds no shear, but the contact has friction"),
-            "run the case again with output.fields = [\"pressure\", \"shear\", ...]",
-        ));
-    }
-    Ok(surfaces)
+    let lacks_shear = || surfaces.iter().any(|surface| surface.shear.is_none());
+    let missing = if surfaces.is_empty() {
+        "holds no tractions: the pressure of no increment was kept"
+    } else if !run.is_frictionless() && lacks_shear() {
+        "holds no shear, but the contact has friction"
+    } else {
+        return Ok(surfaces);
+    };
+    let help = "run the case again with output.fields = [\"pressure\", \"shear\", ...]";
+    Err(Failure::call(format!("{}: {missing}", folder.display()), help))
 }
 
 /// How deep to look below these surfaces [length].

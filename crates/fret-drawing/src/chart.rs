@@ -2,9 +2,9 @@
 
 use maud::{Markup, html};
 
-use super::drawn::{Drawing, figure_of};
-use super::frame::{Frame, room_for};
-use super::scale::{Axis, Label};
+use crate::drawn::Drawing;
+use crate::frame::Frame;
+use crate::scale::{Axis, Label};
 
 /// Size of a chart: narrow, so that its words are still read on a telephone.
 const WIDTH: f64 = 400.0;
@@ -56,6 +56,7 @@ impl Curve {
     }
 
     /// The same curve, drawn in another way.
+    #[must_use]
     pub fn drawn(self, stroke: Stroke) -> Self {
         Self { stroke, ..self }
     }
@@ -70,11 +71,6 @@ impl Curve {
     pub fn dashed(points: Vec<[f64; 2]>, name: &str, colour: usize) -> Self {
         Self::line(points, name, colour).drawn(Stroke::Dashed)
     }
-}
-
-/// Points by their places and heights.
-pub fn joined(x: &[f64], y: &[f64]) -> Vec<[f64; 2]> {
-    x.iter().zip(y).map(|(x, y)| [*x, *y]).collect()
 }
 
 /// A chart.
@@ -130,13 +126,7 @@ impl Chart {
         } else {
             Axis::linear(heights(), 5)
         };
-        let left = room_for(&y);
-        Frame {
-            axes: [axis(0, 6), y],
-            across: [left, WIDTH - RIGHT],
-            down: [TOP, HEIGHT - BOTTOM],
-            downward: false,
-        }
+        Frame::new([axis(0, 6), y], WIDTH - RIGHT, [TOP, HEIGHT - BOTTOM])
     }
 
     /// The chart with the names of its curves below it.
@@ -146,7 +136,7 @@ impl Chart {
 
     /// The chart as a figure with its caption.
     pub fn figure(&self, caption: &str) -> Markup {
-        figure_of(&self.in_page(), caption)
+        Drawing::captioned(&self.in_page(), caption)
     }
 
     /// The chart alone.

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use maud::{Markup, html};
 
-use super::scale::{Axis, Label};
+use crate::scale::{Axis, Label};
 
 /// Width of a letter of a tick.
 const LETTER: f64 = 6.7;
@@ -31,6 +31,11 @@ pub fn room_for(axis: &Axis) -> f64 {
 }
 
 impl Frame {
+    /// The area right of the words of its vertical axis, which counts upwards.
+    pub fn new(axes: [Axis; 2], right: f64, down: [f64; 2]) -> Self {
+        Self { across: [room_for(&axes[1]), right], axes, down, downward: false }
+    }
+
     /// Place of a value along x.
     pub fn x_of(&self, value: f64) -> f64 {
         self.across[0] + self.axes[0].place(value) * (self.across[1] - self.across[0])

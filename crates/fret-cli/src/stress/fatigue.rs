@@ -11,9 +11,7 @@ use fret_core::subsurface::{Judged, LoadedSurface, MostSevere, Severity, StressF
 
 use super::below::Below;
 use super::crack::{CrackAnswer, followed};
-use super::stress_record::{
-    AtDistance, Bounded, CriticalDistance, FatigueRecord, FilmRecord, ParameterRecord,
-};
+use super::record::{AtDistance, Bounded, CriticalDistance, FatigueRecord, FilmRecord, ParameterRecord};
 
 use crate::failure::Failure;
 

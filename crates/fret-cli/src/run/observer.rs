@@ -8,8 +8,8 @@ use fret_core::model::MirroredState;
 use fret_core::run::{Iteration, Observer, Waypoint};
 use fret_core::study::QuantityReader;
 
+use super::progress::Progress;
 use crate::failure::Failure;
-use crate::progress::Progress;
 use fret_results::{ResultFolder, Tally};
 
 /// Somebody else who hears about a run, and may stop it.

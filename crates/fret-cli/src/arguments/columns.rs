@@ -5,7 +5,7 @@ use fret_core::measured::Asked;
 use crate::failure::Failure;
 
 /// Columns and their units by the options of a call, such as the examples.
-pub fn asked(columns: &[String], units: &[String], examples: [&str; 2]) -> Result<Asked, Failure> {
+pub fn columns_asked(columns: &[String], units: &[String], examples: [&str; 2]) -> Result<Asked, Failure> {
     let columns = pairs("--columns", columns, examples[0])?;
     Ok(Asked { columns, units: pairs("--units", units, examples[1])? })
 }

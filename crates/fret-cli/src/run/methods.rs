@@ -5,7 +5,7 @@ use fret_core::model::{Axis, Body, Dimension, Integration, Periodicity};
 use fret_core::plan::{Coupling, Plan};
 use fret_core::units::Units;
 
-use crate::figures::counted;
+use crate::figures::{counted, typed};
 
 /// The paragraph, from the plan of a run that solved so many `increments`: one that was made, or that of a record; `version` and `commit` are
 /// those of the program that ran it.
@@ -108,12 +108,7 @@ fn friction<M, H>(case: &Case<M, H>, coupling: Coupling) -> String {
 
 /// A number in four figures.
 fn short(value: f64) -> String {
-    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
-    if rounded == 0.0 || (1e-3..1e5).contains(&rounded.abs()) {
-        rounded.to_string()
-    } else {
-        format!("{rounded:e}")
-    }
+    typed(format!("{value:.3e}").parse().unwrap_or(value))
 }
 
 #[cfg(test)]

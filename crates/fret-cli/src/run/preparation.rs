@@ -8,11 +8,10 @@ use fret_core::plan::{LeaveOut, Plan};
 use fret_core::run::plausibility;
 use fret_core::study::companion;
 
-use super::plan::left_out_in_short;
 use crate::arguments::{LeavingOut, RunArguments};
 use crate::failure::Failure;
 use crate::manner::Manner;
-use crate::summary::warning_line;
+use crate::plan_words::{left_out_in_short, warning_line};
 use crate::threads;
 use fret_results::{CaseFile, Origin, ResultFolder, Standing, Wish, resolved_path};
 

@@ -2,10 +2,8 @@
 
 use fret_core::units::Units;
 
-use crate::drawing::drawn::Drawing;
-use crate::drawing::map::Map;
-use crate::drawing::raster::Raster;
-use crate::drawing::scale::{Label, ends};
+use fret_drawing::{Axis, Drawing, Label, Map, Raster};
+
 use crate::failure::Failure;
 
 /// Width of a picture in its own units.
@@ -50,7 +48,7 @@ impl Section<'_> {
             return Ok(None);
         };
         let half = if self.x.len() > 1 { 0.5 * (self.x[1] - self.x[0]) } else { 0.5 };
-        let range = self.range.unwrap_or_else(|| ends(self.values.iter().flatten().copied()));
+        let range = self.range.unwrap_or_else(|| Axis::ends(self.values.iter().flatten().copied()));
         let columns = self.x.len().min(MOST_COLUMNS);
         let value = |column: usize, row: usize| {
             let depth = top + (row as f64 + 0.5) / PIXELS as f64 * (bottom - top);
@@ -70,7 +68,7 @@ impl Section<'_> {
             bar: Some((label(self.quantity.0, self.quantity.1), range)),
             levels: self.interfaces.iter().copied().filter(|face| face > top && face < bottom).collect(),
         };
-        map.drawing().map(Some)
+        Ok(Some(map.drawing()?))
     }
 
     /// The row nearest to a depth, on its side of an interface.

@@ -7,10 +7,11 @@ use std::path::Path;
 use fret_core::history::History;
 use fret_core::plan::Plan;
 
-use super::{heat, stress};
-use crate::embedded::{Solved, save};
+use super::answer::Besides;
+use super::question::Point;
 use crate::failure::{Failure, Unwritten};
-use crate::sweep::{Besides, Point};
+use crate::run::{Solved, save};
+use crate::{heat, stress};
 use fret_results::Wish;
 
 /// Computes what a solved point is asked for; `folder` is gone afterwards.

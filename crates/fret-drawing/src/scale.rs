@@ -38,6 +38,18 @@ pub struct Axis {
 const PLAIN: std::ops::RangeInclusive<i32> = -1..=3;
 
 impl Axis {
+    /// Least and largest finite value; the other way round, and infinite, when there is none.
+    pub fn ends(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+        let finite = values.into_iter().filter(|value| value.is_finite());
+        finite
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
+    }
+
+    /// A power of ten, its exponent in raised digits.
+    pub fn power_of_ten(exponent: i32) -> String {
+        format!("10{}", superscript(exponent))
+    }
+
     /// An axis over values, a little wider than they are, with about so many ticks.
     pub fn linear(values: impl Iterator<Item = f64>, ticks: usize) -> Self {
         let [mut low, mut high] = extent(values);
@@ -84,7 +96,7 @@ impl Axis {
         let every = ((high - low) / most_ticks.max(1) + 1).max(1);
         let ticks = (low..=high)
             .filter(|power| power.rem_euclid(every) == 0)
-            .map(|power| (10_f64.powi(power), format!("10{}", superscript(power))))
+            .map(|power| (10_f64.powi(power), Self::power_of_ten(power)))
             .collect();
         Self { range: [10_f64.powi(low), 10_f64.powi(high)], ticks, exponent: 0, logarithmic: true }
     }
@@ -101,7 +113,7 @@ impl Axis {
 
     /// The name of the axis with the power of ten its ticks leave out.
     pub fn named(&self, label: &Label) -> String {
-        let power = format!("10{}", superscript(self.exponent));
+        let power = Self::power_of_ten(self.exponent);
         match (&label.unit, self.exponent) {
             (None, 0) => label.name.clone(),
             (None, _) => format!("{} / {power}", label.name),
@@ -111,17 +123,9 @@ impl Axis {
     }
 }
 
-/// Least and largest finite value; the other way round, and infinite, when there is none.
-pub fn ends(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
-    values
-        .into_iter()
-        .filter(|value| value.is_finite())
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
-}
-
-/// The same; 0 and 1 when there is none.
+/// The ends of values; 0 and 1 when there is none.
 fn extent(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    let [low, high] = ends(values);
+    let [low, high] = Axis::ends(values);
     if low <= high { [low, high] } else { [0.0, 1.0] }
 }
 
@@ -134,7 +138,7 @@ fn round_step(step: f64) -> f64 {
 }
 
 /// A whole number in raised digits.
-pub fn superscript(number: i32) -> String {
+fn superscript(number: i32) -> String {
     let raised = |letter| match letter {
         '-' => '⁻',
         '1' => '¹',

@@ -7,7 +7,7 @@ use fret_core::subsurface::severity::constants_of;
 use fret_core::subsurface::{LoadedSurface, MostSevere};
 
 use super::below::Below;
-use super::stress_record::{CrackFollowed, CrackRecord};
+use super::record::{CrackFollowed, CrackRecord};
 use crate::failure::Failure;
 use crate::figures::figure;
 use crate::interrupt;

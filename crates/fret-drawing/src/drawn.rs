@@ -2,9 +2,6 @@
 
 use maud::{Markup, html};
 
-/// The style of pictures: the palette by day, and what is drawn in which colour.
-pub const STYLE: &str = concat!(include_str!("palette.css"), include_str!("drawing.css"));
-
 /// A picture, not yet put anywhere.
 #[derive(Debug)]
 pub struct Drawing {
@@ -19,7 +16,15 @@ pub struct Drawing {
 }
 
 impl Drawing {
-    /// The picture as part of a page that has [`STYLE`].
+    /// The style of pictures: the palette by day, and what is drawn in which colour.
+    pub const STYLE: &str = concat!(include_str!("palette.css"), include_str!("drawing.css"));
+
+    /// A figure of a page, with its caption.
+    pub fn captioned(content: &Markup, caption: &str) -> Markup {
+        html! { figure { (content) figcaption { (caption) } } }
+    }
+
+    /// The picture as part of a page that has [`Self::STYLE`].
     pub fn in_page(&self) -> Markup {
         let [width, height] = self.size;
         html! {
@@ -37,7 +42,7 @@ impl Drawing {
         let svg = html! {
             svg xmlns="http://www.w3.org/2000/svg" viewBox=(format!("0 0 {width} {all:.0}"))
                 width=(format!("{:.0}", 1.6 * width)) height=(format!("{:.0}", 1.6 * all)) role="img" aria-label=(self.what) {
-                style { (maud::PreEscaped(STYLE)) }
+                style { (maud::PreEscaped(Self::STYLE)) }
                 rect class="paper" width="100%" height="100%" {}
                 @for (number, line) in heading.iter().enumerate() {
                     text class=(if number == 0 { "title" } else { "axis" }) x="12" y=(22 + 18 * number) { (line) }
@@ -47,9 +52,4 @@ impl Drawing {
         };
         svg.into_string() + "\n"
     }
-}
-
-/// A figure with its caption.
-pub fn figure_of(drawing: &Markup, caption: &str) -> Markup {
-    html! { figure { (drawing) figcaption { (caption) } } }
 }

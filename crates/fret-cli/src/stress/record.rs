@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use fret_core::units::Units;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::stress_kinds::kind_of_stress;
+use super::kinds::kind_of_stress;
 use crate::figures::{UNLIMITED, bounded};
 use crate::table::{Cell, Columns};
 

@@ -2,14 +2,13 @@
 
 use maud::{Markup, html};
 
-use super::drawn::Drawing;
-use super::frame::{Frame, room_for};
-use super::raster::Raster;
-use super::scale::{Axis, Label};
-use crate::failure::Failure;
+use png::EncodingError;
 
-/// Width of a map of the surface.
-pub const SURFACE: f64 = 400.0;
+use crate::drawn::Drawing;
+use crate::frame::{Frame, room_for};
+use crate::raster::Raster;
+use crate::scale::{Axis, Label};
+
 const TOP: f64 = 26.0;
 const BOTTOM: f64 = 45.0;
 /// Room right of a map that has no bar: about that of a bar.
@@ -49,11 +48,14 @@ pub struct Map {
 }
 
 impl Map {
+    /// Width of a map of the surface.
+    pub const WIDTH: f64 = 400.0;
+
     /// A map of the surface without a bar, whose axes are so called; a line contact has none along y.
     pub fn of_surface(what: &str, axes: [Label; 2], [x, y]: [[f64; 2]; 2], image: String) -> Self {
         Self {
             what: what.to_owned(),
-            width: SURFACE,
+            width: Self::WIDTH,
             axes,
             x,
             y,
@@ -66,7 +68,10 @@ impl Map {
     }
 
     /// The map.
-    pub fn drawing(&self) -> Result<Drawing, Failure> {
+    ///
+    /// # Errors
+    /// When the colours of its bar cannot be written as an image.
+    pub fn drawing(&self) -> Result<Drawing, EncodingError> {
         let x_to_y = ((self.y[1] - self.y[0]) / (self.x[1] - self.x[0])).clamp(FLATTEST, TALLEST);
         let ticks = ((x_to_y * 0.7 * self.width / TICK) as usize).min(5);
         let bar = self.bar.as_ref().map(|(label, range)| (label, Axis::over(*range, ticks)));
@@ -127,7 +132,7 @@ fn drawn_bar(
     left: f64,
     [top, bottom]: [f64; 2],
     width: f64,
-) -> Result<Markup, Failure> {
+) -> Result<Markup, EncodingError> {
     let address = Raster::of_scale().address()?;
     let high = bottom - top;
     Ok(html! {

@@ -9,9 +9,9 @@ use fret_core::subsurface::{DepthPoint, Largest, Measure, StressField};
 
 use super::below::Below;
 use super::fatigue::{Fatigue, Picture};
-use super::stress_record::{LargestRecord, StressRecord};
-use crate::commands::stress_kinds::{kind_of_stress, stress_called};
-use crate::drawing::Section;
+use super::kinds::{kind_of_stress, stress_called};
+use super::record::{LargestRecord, StressRecord};
+use super::section::Section;
 use crate::failure::Failure;
 use crate::figures::{counted, duration, indented};
 use crate::manner::Manner;
