@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fretting import _case, _core
-from fretting._arguments import checked, content, mapping
+from fretting._arguments import checked, content, mapping, matplotlib
 from fretting._fitted import Fitted
 
 if TYPE_CHECKING:
@@ -111,9 +111,7 @@ class Identification(Fitted):
 
     def _axes(self, axes: "Axes | None") -> "Axes":
         if axes is None:
-            from matplotlib import pyplot as plt
-
-            axes = plt.subplots()[1]
+            axes = matplotlib("matplotlib.pyplot").subplots()[1]
         units = self._answer["units"]
         force = f"{units['force']}/{units['length']}" if self._answer["line_contact"] else units["force"]
         axes.set(xlabel=f"displacement [{units['length']}]", ylabel=f"tangential force [{force}]")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from fretting import _case, _core
-from fretting._arguments import checked, content, mapping, of_kind
+from fretting._arguments import checked, content, mapping, matplotlib, of_kind
 from fretting._fitted import Fitted
 from fretting.identifying import Constant
 
@@ -85,9 +85,7 @@ class Indentation(Fitted):
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draw the measured points beside the computed curve, over the depth from the first touch on."""
         if ax is None:
-            from matplotlib import pyplot as plt
-
-            ax = plt.subplots()[1]
+            ax = matplotlib("matplotlib.pyplot").subplots()[1]
         units = self._answer["units"]
         ax.set(xlabel=f"depth [{units['length']}]", ylabel=f"load [{units['force']}]")
         ax.plot(self.measured["depth"], self.measured["force"], ".", ms=3, label="measured")
