@@ -185,6 +185,15 @@ def test_progress_is_told_after_every_increment(
     assert "increment 2  " in capsys.readouterr().err
 
 
+def test_without_stderr_no_progress_is_told(sphere_case: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    """A program without a terminal, such as pythonw, has none."""
+    sphere_case["grid"]["cells"] = [16, 16]
+    monkeypatch.setattr("sys.stderr", None)
+    assert fretting.run(sphere_case, progress=True).finished
+    pytest.importorskip("xarray")
+    assert fretting.sweep(sphere_case, {"load.0.normal_force": [6.0, 12.0]}, progress=True)["approach"].size == 2
+
+
 def test_what_progress_raises_ends_the_run(sphere_case: dict[str, Any]) -> None:
     sphere_case["grid"]["cells"] = [16, 16]
     sphere_case["load"][0]["increments"] = 5
