@@ -91,7 +91,7 @@ def test_what_needs_a_library_that_is_missing_says_how_it_is_installed(library: 
         pytest.importorskip(needed)
     told = subprocess.run(
         [sys.executable, "-W", "ignore", "-c", PROGRAM, library],
-        capture_output=True, text=True, timeout=300, check=False,
+        capture_output=True, text=True, timeout=600, check=False,
     )  # fmt: skip
     assert told.returncode == 0, told.stderr
     lines = told.stdout.splitlines()

@@ -102,7 +102,7 @@ def test_a_sweep_in_forked_processes_after_a_solve_of_the_parent() -> None:
     """Worker threads do not survive a fork: a child that waited for them would hang."""
     done = subprocess.run(
         [sys.executable, "-W", "ignore::DeprecationWarning", "-c", FORKED],
-        capture_output=True, text=True, timeout=120, check=False,
+        capture_output=True, text=True, timeout=600, check=False,
     )  # fmt: skip
     assert (done.returncode, done.stdout) == (0, "done\n"), done.stderr
 
@@ -139,7 +139,7 @@ def test_a_sweep_on_mpi(case: dict[str, Any], alone: np.ndarray[Any, Any], tmp_p
     script.write_text(MPI.format(case=case, axes=AXES))
     done = subprocess.run(
         [launcher, "-n", "3", sys.executable, "-m", "mpi4py.futures", script],
-        capture_output=True, text=True, timeout=120, check=False,
+        capture_output=True, text=True, timeout=600, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert json.loads(done.stdout) == alone.tolist()
