@@ -193,6 +193,9 @@ def _list_of_points(rows: Sequence[Mapping[str, Any]]) -> Dimension:
     if not rows:
         raise ValueError("parameters: the list of points is empty")
     keys = list(rows[0])
+    for key in keys:
+        if not isinstance(key, str):
+            raise TypeError(f"parameters: in a list of points {key!r} is no key of the case")
     for index, row in enumerate(rows):
         if set(row) != set(keys) or not keys:
             raise ValueError(

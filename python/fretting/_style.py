@@ -4,7 +4,7 @@ import re
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Literal, Self
 
-from fretting._arguments import checked, matplotlib
+from fretting._arguments import checked, matplotlib, texts
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -132,7 +132,7 @@ def scale(axes: "Axes", *units: str) -> "Axes":
 
     >>> fretting.plot.scale(history.plot_loop(), "um")  # doctest: +SKIP
     """
-    for unit in units:
+    for unit in texts("units", units):
         wanted = _power(unit)
         if wanted is None:
             raise ValueError(f"unit {unit!r} is not known: m, N, Pa, J with a prefix, such as 'um', 'mN', 'MPa'")

@@ -203,6 +203,8 @@ def section(
             raise ValueError("along = 'y': nothing changes along the line of a line contact")
         at = 0.0
     names = texts("fields", fields)
+    if not names:
+        raise ValueError("fields: expected at least one")
     here, across = (history.x, history.y) if along == "x" else (history.y, history.x)
     half = 0.5 * (across[1] - across[0]) if len(across) > 1 else np.inf
     if not across[0] - half <= at <= across[-1] + half:
@@ -321,6 +323,8 @@ def animation(
     matplotlib FuncAnimation
         ``.save("loop.gif", writer="pillow")`` writes it, ``.to_jshtml()`` shows it in a notebook. Keep a reference.
     """
+    if interval < 1:
+        raise ValueError(f"interval = {interval}: must be at least 1 ms")
     plt = _pyplot()
     chosen = set(_loop_rows(history, stage).tolist())
     kept = [increment for increment in history.kept_increments if increment in chosen]

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Callable, Mapping
+from dataclasses import fields
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -65,6 +66,12 @@ def of_each(numbers: dict[str, Any]) -> dict[str, Any]:
     return {name: None if values is None else np.array(values, dtype=np.float64) for name, values in numbers.items()}
 
 
+def equal(one: Any, other: Any) -> bool:
+    """Whether two solutions are of one kind and have the same numbers, arrays among them."""
+    names = [entry.name for entry in fields(one) if entry.compare]
+    return type(one) is type(other) and all(np.array_equal(getattr(one, name), getattr(other, name)) for name in names)
+
+
 def forces_of(tangential_forces: npt.ArrayLike) -> list[float]:
     found: list[float] = real_array("tangential_forces", tangential_forces, dimensions=1).tolist()
     return found
@@ -72,6 +79,11 @@ def forces_of(tangential_forces: npt.ArrayLike) -> list[float]:
 
 def values_of(solution: Solution, name: str, **at: npt.ArrayLike) -> Reals:
     """Return a function of the solution at points: one coordinate, or several of one broadcast shape."""
-    places = np.broadcast_arrays(*(real_array(coordinate, values) for coordinate, values in at.items()))
+    given = [real_array(coordinate, values) for coordinate, values in at.items()]
+    try:
+        places = np.broadcast_arrays(*given)
+    except ValueError:
+        shapes = ", ".join(str(values.shape) for values in given)
+        raise ValueError(f"{', '.join(at)} of shapes {shapes}: must fit each other") from None
     flat = [np.ascontiguousarray(one.ravel(), dtype=np.float64) for one in places]
     return solution.function(name, flat).reshape(places[0].shape)

@@ -10,7 +10,7 @@ from fretting import _core
 from fretting._arguments import checked
 from fretting._arrays import Reals
 from fretting.analytic._generated import CattaneoMindlin, Hertz, HertzLine
-from fretting.analytic._solution import Branch, Solution, forces_of, numbers_of, of_each, values_of
+from fretting.analytic._solution import Branch, Solution, equal, forces_of, numbers_of, of_each, values_of
 
 
 @dataclass(frozen=True)
@@ -119,6 +119,10 @@ class TangentialHistory:
     """Energy dissipated by friction since the start, at each force [force x length]."""
     _solution: Solution = field(repr=False, compare=False)
 
+    def __eq__(self, other: object) -> bool:
+        """Whether the other has the same numbers."""
+        return equal(self, other)
+
     def shear(self, r: npt.ArrayLike) -> Reals:
         """Shear at the last force at distances `r` from the middle [pressure], along the force; zero outside."""
         return values_of(self._solution, "shear", r=r)
@@ -177,6 +181,10 @@ class LineHistory:
     dissipated_energy: Reals
     """Energy dissipated by friction per length since the start, at each force [force]."""
     _solution: Solution = field(repr=False, compare=False)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether the other has the same numbers."""
+        return equal(self, other)
 
     def shear(self, x: npt.ArrayLike) -> Reals:
         """Shear at the last force at `x` from the middle [pressure], along the force; zero outside the contact."""
