@@ -2,6 +2,7 @@
 
 import sys
 import time
+from contextlib import suppress
 from types import TracebackType
 from typing import Any, Self
 
@@ -10,28 +11,34 @@ class _Line:
     """Writes to stderr: one line rewritten in place on a terminal, otherwise a line every few seconds."""
 
     def __init__(self) -> None:
-        self._to = sys.stderr  # None in a program without a terminal, such as pythonw: nothing is told then
-        self._terminal = self._to is not None and self._to.isatty()
+        self._to = sys.stderr  # None in a program without a terminal, such as pythonw
+        self._terminal = False
+        with suppress(AttributeError, ValueError):  # there is none, or it is closed
+            self._terminal = self._to.isatty()
         self._patience = 0.1 if self._terminal else 5.0
         self._start = self._last = time.monotonic()
 
     def due(self, done: int, count: int) -> float | None:
         """Return the seconds that are left when it is time to tell, else nothing."""
         now = time.monotonic()
-        if self._to is None or (done < count and now - self._last < self._patience):
+        if done < count and now - self._last < self._patience:
             return None
         self._last = now
         return (now - self._start) / done * (count - done)
 
     def write(self, text: str) -> None:
         """Write the line."""
-        self._to.write(f"\r{text}\x1b[K" if self._terminal else f"{text}\n")
-        self._to.flush()
+        self._send(f"\r{text}\x1b[K" if self._terminal else f"{text}\n")
 
     def end(self) -> None:
         """Leave the line."""
         if self._terminal:
-            self._to.write("\n")
+            self._send("\n")
+
+    def _send(self, text: str) -> None:
+        """Send it to stderr; a terminal that has gone away ends no run."""
+        with suppress(AttributeError, OSError, ValueError):
+            self._to.write(text)
             self._to.flush()
 
 

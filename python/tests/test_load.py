@@ -90,6 +90,13 @@ def test_a_pickled_history_does_without_its_folder(copy: Path) -> None:
         again.increments["presure"]
 
 
+def test_fields_are_found_from_another_current_folder(copy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(copy.parent)
+    history, expected = fretting.open_results(copy.name), fretting.open_results(copy).field("pressure")
+    monkeypatch.chdir("/")
+    np.testing.assert_array_equal(history.field("pressure"), expected)
+
+
 def test_a_folder_that_is_gone_is_named_when_its_history_is_saved(copy: Path, tmp_path: Path) -> None:
     history = fretting.open_results(copy)
     shutil.rmtree(copy)
