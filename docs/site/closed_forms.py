@@ -23,12 +23,12 @@ from dataclasses import dataclass, field
 
 import numpy.typing as npt
 
-from fretting import _core
 from fretting._arguments import checked
 from fretting._arrays import Reals
 from fretting.analytic._solution import (
     Layer,
     Material,
+    Solution,
     layer_numbers,
     material_numbers,
     numbers_of,
@@ -70,7 +70,7 @@ def _class(solution: dict[str, Any]) -> str:
     for entry in solution["numbers"] + numbers:
         lines += [f"    {entry['name']}: {_type(entry['kind'])}", *_docstring(_plain(entry["meaning"]), 4)]
     if curves:
-        lines.append("    _solution: _core.Solution = field(repr=False, compare=False)")
+        lines.append("    _solution: Solution = field(repr=False, compare=False)")
     for curve in curves:
         at = curve["at"]
         named = " and ".join(f"`{one}`" for one in at)

@@ -226,11 +226,23 @@ def needed(library: str, words: str) -> Any:
         raise ImportError(words) from error
 
 
+def matplotlib(part: str = "matplotlib") -> Any:
+    """Return matplotlib or a part of it, which may be missing."""
+    return needed(part, "figures need matplotlib: pip install 'fretting[plot]'")
+
+
 def mapping(name: str, value: Any) -> Mapping[Any, Any]:
     """Return a mapping."""
     if not isinstance(value, Mapping):
         raise TypeError(f"{name}: expected a mapping, found {type(value).__name__}")
     return value
+
+
+def constants(name: str, value: Any) -> Any:
+    """Return constants of a layer as a case has them: numbers, words and tables."""
+    from fretting import _case
+
+    return _case.plain(mapping(name, value), name)
 
 
 def history(name: str, value: Any) -> Any:
@@ -242,26 +254,19 @@ def history(name: str, value: Any) -> Any:
 
 def dataset(name: str, value: Any) -> Any:
     """Return an xarray Dataset."""
-    import xarray
-
-    return of_kind(name, value, xarray.Dataset)
+    library = needed("xarray", f"{name}, an xarray.Dataset, needs xarray: pip install 'fretting[xarray]'")
+    return of_kind(name, value, library.Dataset)
 
 
 def axes(name: str, value: Any) -> Any:
     """Return axes of matplotlib."""
-    if value is None:
-        return None
-    from matplotlib.axes import Axes
-
-    if not isinstance(value, Axes):
+    if not isinstance(value, matplotlib("matplotlib.axes").Axes):
         raise TypeError(f"{name}: expected the axes of a matplotlib figure, found {type(value).__name__}")
     return value
 
 
 def pair_of_axes(name: str, value: Any) -> Any:
     """Return two axes of matplotlib."""
-    if value is None:
-        return None
     if not isinstance(value, tuple | list | np.ndarray) or np.ndim(np.asarray(value, dtype=object)) != 1:
         raise TypeError(f"{name}: expected a pair of axes, found {type(value).__name__}")
     if len(value) != 2:
@@ -287,6 +292,7 @@ _OF_TYPES: dict[Any, Check] = {float: real, int: whole, str: text, bool: truth}
 _OF_NAMES: dict[str, Check] = {
     "History": history,
     "xarray.Dataset": dataset,
+    "FatigueConstants": constants,
     "Axes": axes,
     "tuple[Axes, Axes]": pair_of_axes,
 }

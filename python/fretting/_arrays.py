@@ -24,7 +24,10 @@ def real_array(name: str, values: npt.ArrayLike, dimensions: int | None = None) 
     ValueError
         When the number of dimensions is another one, or a value is not finite.
     """
-    given = np.asarray(values)
+    try:
+        given = np.asarray(values)
+    except ValueError as error:
+        raise ValueError(f"{name}: expected an array of real numbers; {error}") from None
     if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
         raise ValueError(f"{name}: has masked values; what is under a mask is no number")
     if given.dtype.kind not in "fiu":

@@ -61,7 +61,7 @@ def table_of(case: CaseLike) -> dict[str, Any]:
 def table_from_anywhere(case: CaseLike) -> dict[str, Any]:
     """Return a case as a dict of its own, which can be changed and read again: names of files keep their folder."""
     if isinstance(case, Mapping):
-        return copy.deepcopy({**case})
+        return {key: _own(value, key) for key, value in case.items()}
     text, name, folder = text_of(case)
     try:
         table = tomllib.loads(text)
@@ -69,6 +69,23 @@ def table_from_anywhere(case: CaseLike) -> dict[str, Any]:
         _core.Case.from_toml(text, name, folder)  # the core says it with the place
         raise
     return {key: _moved(value, key, folder) for key, value in table.items()}
+
+
+_OF_ALL_CELLS = ("values", "map", "friction", "max_shear")
+"""Keys of a case whose arrays have a number for every cell."""
+
+
+def _own(value: Any, key: str, depth: int = 1) -> Any:
+    """Return a value of a case with tables and lists of its own, in whatever kinds they are given."""
+    if depth > _DEEPEST:
+        raise _too_deep()
+    if isinstance(value, Mapping):
+        return {name: _own(item, name, depth + 1) for name, item in value.items()}
+    if isinstance(value, np.ndarray) and value.ndim > 0 and key not in _OF_ALL_CELLS:
+        return value.tolist()
+    if isinstance(value, list | tuple):
+        return [_own(item, key, depth + 1) for item in value]
+    return copy.deepcopy(value)
 
 
 NAMES_A_FILE = ("file", "map", "friction", "max_shear", "table")
@@ -111,7 +128,7 @@ def plain(value: object, place: str, arrays: list[Reals] | None = None, depth: i
     if (
         arrays is not None
         and isinstance(value, np.ndarray)
-        and place.endswith((".values", ".map", ".friction", ".max_shear"))
+        and place.endswith(tuple(f".{key}" for key in _OF_ALL_CELLS))
         and value.ndim > 0
     ):
         arrays.append(_field(value, place))
@@ -133,7 +150,7 @@ def plain(value: object, place: str, arrays: list[Reals] | None = None, depth: i
     if isinstance(value, os.PathLike):
         return str(Path(value))
     if depth > _DEEPEST:
-        raise _refusal("case", f"tables and lists nested deeper than {_DEEPEST}, or one inside itself: not a case")
+        raise _too_deep()
     if isinstance(value, Mapping):
         for key in value:
             if not isinstance(key, str):
@@ -174,6 +191,10 @@ def _unreadable(path: Path, error: OSError) -> UnreadableError:
         way = "give the TOML file of a case; fretting.open_results(folder) opens the results of a run"
         return UnreadableError(f"error: {path}: a folder, not a file\n  = help: {way}", str(path))
     return UnreadableError(f"error: {path}: cannot be read: {error.strerror or error}", str(path))
+
+
+def _too_deep() -> CaseError:
+    return _refusal("case", f"tables and lists nested deeper than {_DEEPEST}, or one inside itself: not a case")
 
 
 def _refusal(name: str, message: str) -> CaseError:

@@ -12,6 +12,7 @@ import numpy.typing as npt
 import traitlets
 
 from fretting import plot
+from fretting._arguments import matplotlib
 from fretting._meaning import VECTORS, in_units, label, unit
 from fretting._style import BLUE, VERMILION
 
@@ -113,17 +114,15 @@ class Explorer(anywidget.AnyWidget):
 
     def _coloured(self, name: str, values: npt.NDArray[Any]) -> tuple[bytes, list[list[str]]]:
         """Return the colours of the cells, rows from the top, four bytes each; and what they mean."""
-        import matplotlib as mpl
-        from matplotlib.colors import to_rgba
-
+        library = matplotlib()
         rows = values.T[::-1]
         if name == "zone":
-            table = np.array([to_rgba(colour) for _, colour in plot.ZONES])
+            table = np.array([matplotlib("matplotlib.colors").to_rgba(colour) for _, colour in plot.ZONES])
             colours = table[rows.astype(np.int64)]
             meaning = [[word, colour.lower()] for word, colour in plot.ZONES]
         else:
             low, high = self._range(name)
-            colours = mpl.colormaps["RdBu_r" if low < 0.0 else "viridis"]((rows - low) / (high - low))
+            colours = library.colormaps["RdBu_r" if low < 0.0 else "viridis"]((rows - low) / (high - low))
             kind = in_units(unit(name), self._history._units)
             meaning = [[f"{name.replace('_', ' ')} from", f"{low:.4g}"], ["to", f"{high:.4g} {kind}"]]
         return np.rint(255 * colours).astype(np.uint8).tobytes(), meaning

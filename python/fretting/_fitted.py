@@ -8,9 +8,18 @@ from typing import Any
 
 import numpy as np
 
-from fretting._arguments import checked, of_kind
+from fretting._arguments import checked, mapping, of_kind, text
 from fretting._arrays import Reals
 from fretting.errors import UnreadableError
+
+
+def named(name: str, given: Any, numbered: bool = False) -> list[tuple[str, str]]:
+    """Return what stands by the names of columns; numbers, which count from 1, as words, where they may stand there."""
+    found = []
+    for role, entry in mapping(name, {} if given is None else given).items():
+        number = numbered and isinstance(entry, int | np.integer) and not isinstance(entry, bool)
+        found.append((text(name, role), str(entry) if number else text(f"{name}[{role!r}]", entry)))
+    return found
 
 
 class Fitted:

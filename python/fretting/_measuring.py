@@ -55,8 +55,22 @@ class Measuring:
             )
 
 
-def measured(name: str, value: object) -> Any:
+def all_measured(given: object) -> Table:
+    """Return all that `measure` gave as a file can hold it."""
+    try:
+        found = dict(given)  # type: ignore[call-overload]
+    except (TypeError, ValueError):
+        raise TypeError(
+            "measure: must return a mapping from names to numbers, words or arrays, such as {'peak': 1e9}; "
+            f"it returned {type(given).__name__}"
+        ) from None
+    return {name: _measured(name, value) for name, value in found.items()}
+
+
+def _measured(name: object, value: object) -> Any:
     """Return what is measured as a file can hold it; refuse what no variable can be made of."""
+    if not isinstance(name, str):
+        raise TypeError(f"measure: a name is a str, and {name!r} is {type(name).__name__}")
     if name in MEANING or name.startswith("cycle_") or name in RESERVED:
         raise ValueError(f"measure: the name {name!r} is taken")
     array = np.asarray(value)

@@ -11,16 +11,17 @@ Table: TypeAlias = dict[str, Any]
 
 def steps(path: str) -> list[str]:
     """Return the parts of a path: words as they are, and numbers, in brackets or as parts of their own."""
-    return [part for part in re.split(r"\.|\[(-?\d+)\]", path) if part]
+    return re.sub(r"\[(-?\d+)\]", r".\1", path).split(".")
 
 
 def put(case: Table, key: str, value: object) -> None:
     """Give the value to the entry of a case that a dotted key names.
 
     Parts of the key are names of tables, numbers of a list's entries from 0 (negative: from the end), or, in a list of
-    tables, the ``name`` of one (a stage). Tables that are not there are made; entries of lists are not.
+    tables, the ``name`` of one (a stage); ``load[0]`` is ``load.0``. Tables that are not there are made; entries of
+    lists are not.
     """
-    put_at(case, key.split("."), key, value)
+    put_at(case, steps(key), key, value)
 
 
 def put_at(case: Table, parts: Sequence[str], key: str, value: object) -> None:

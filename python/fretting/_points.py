@@ -39,6 +39,11 @@ class Parameter:
     apply: str | Callable[[Table, Any], object]
     """A dotted key of the case; or a function of a copy of the case (a dict, the caller's to change) and a value."""
 
+    def __post_init__(self) -> None:
+        """Check what is applied."""
+        if not isinstance(self.apply, str) and not callable(self.apply):
+            raise TypeError(f"apply: expected a key of the case or a function, found {type(self.apply).__name__}")
+
 
 Values: TypeAlias = Sequence[Any] | npt.NDArray[Any] | Parameter | Distribution
 Parameters: TypeAlias = Mapping[Any, Values] | Sequence[Mapping[str, Any]]
@@ -186,6 +191,9 @@ def _list_of_points(rows: Sequence[Mapping[str, Any]]) -> Dimension:
     if not rows:
         raise ValueError("parameters: the list of points is empty")
     keys = list(rows[0])
+    for key in keys:
+        if not isinstance(key, str):
+            raise TypeError(f"parameters: in a list of points {key!r} is no key of the case")
     for index, row in enumerate(rows):
         if set(row) != set(keys) or not keys:
             raise ValueError(

@@ -2,6 +2,7 @@
 
 import sys
 import time
+from contextlib import suppress
 from types import TracebackType
 from typing import Any, Self
 
@@ -10,7 +11,10 @@ class _Line:
     """Writes to stderr: one line rewritten in place on a terminal, otherwise a line every few seconds."""
 
     def __init__(self) -> None:
-        self._terminal = sys.stderr.isatty()
+        self._to = sys.stderr  # None in a program without a terminal, such as pythonw
+        self._terminal = False
+        with suppress(AttributeError, ValueError):  # there is none, or it is closed
+            self._terminal = self._to.isatty()
         self._patience = 0.1 if self._terminal else 5.0
         self._start = self._last = time.monotonic()
 
@@ -24,14 +28,18 @@ class _Line:
 
     def write(self, text: str) -> None:
         """Write the line."""
-        sys.stderr.write(f"\r{text}\x1b[K" if self._terminal else f"{text}\n")
-        sys.stderr.flush()
+        self._send(f"\r{text}\x1b[K" if self._terminal else f"{text}\n")
 
     def end(self) -> None:
         """Leave the line."""
         if self._terminal:
-            sys.stderr.write("\n")
-            sys.stderr.flush()
+            self._send("\n")
+
+    def _send(self, text: str) -> None:
+        """Send it to stderr; a terminal that has gone away ends no run."""
+        with suppress(AttributeError, OSError, ValueError):
+            self._to.write(text)
+            self._to.flush()
 
 
 class PointLine(_Line):

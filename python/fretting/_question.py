@@ -49,7 +49,7 @@ class Question:
         self.sign, weights = objective_of(*objectives)
         self.weights = weighed(weights)
         self.limits: dict[str, Limit] = {}
-        for name, pair in mapping("limits", limits or {}).items():
+        for name, pair in mapping("limits", {} if limits is None else limits).items():
             own = called(text("limits", name))
             if own in self.limits:
                 raise ValueError(f"limits: {name} is named twice")
@@ -246,7 +246,7 @@ class Question:
 def _check_names(of: list[str], table: Mapping[str, Any], by: list[str]) -> None:
     """Refuse a question of no result, and numbers of the case that stand where results do without being of `by`."""
     for name in of:
-        first, *more = steps(name) or [name]
+        first, *more = steps(name)
         if more and first in table and first != "stress":  # the table and the results below have one name
             raise ValueError(f"{name}: not a number of `by`, which has {', '.join(by)}")
     if not of:

@@ -35,8 +35,8 @@ def read(start: StartLike | _core.Start | None) -> _core.Start | None:
     if isinstance(start, tuple) and len(start) != 2:
         raise TypeError(f"start: expected a pair of a folder or a History and an increment, found {len(start)} things")
     source, increment = start if isinstance(start, tuple) else (start, None)
-    if increment is not None and (not isinstance(increment, int) or isinstance(increment, bool)):
-        raise TypeError(f"start: the number of an increment is an int, not {type(increment).__name__}")
+    if increment is not None:
+        increment = arguments.whole("start, the number of an increment", increment)
     if not isinstance(source, str | os.PathLike):
         return _of_history(source, increment)
     folder = Path(arguments.path("start", source))

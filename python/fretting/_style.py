@@ -4,7 +4,7 @@ import re
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Literal, Self
 
-from fretting._arguments import checked
+from fretting._arguments import checked, matplotlib, texts
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -66,9 +66,7 @@ class Style:
 
 def _parameters() -> Any:
     """Return what matplotlib keeps of its look."""
-    import matplotlib as mpl
-
-    return mpl.rcParams
+    return matplotlib().rcParams
 
 
 @checked
@@ -103,10 +101,9 @@ def style(name: Literal["paper"] = "paper", *, width: float = 85.0) -> Style:
     """
     if not 20.0 <= width <= 400.0:
         raise ValueError(f"width = {width}: from 20 to 400 mm")
-    from cycler import cycler
-
     inches = width / 25.4
-    return Style({**LOOK, "axes.prop_cycle": cycler(color=PALETTE), "figure.figsize": (inches, HEIGHT * inches)})
+    cycle = matplotlib().cycler(color=PALETTE)
+    return Style({**LOOK, "axes.prop_cycle": cycle, "figure.figsize": (inches, HEIGHT * inches)})
 
 
 @checked
@@ -135,7 +132,7 @@ def scale(axes: "Axes", *units: str) -> "Axes":
 
     >>> fretting.plot.scale(history.plot_loop(), "um")  # doctest: +SKIP
     """
-    for unit in units:
+    for unit in texts("units", units):
         wanted = _power(unit)
         if wanted is None:
             raise ValueError(f"unit {unit!r} is not known: m, N, Pa, J with a prefix, such as 'um', 'mN', 'MPa'")
@@ -161,8 +158,6 @@ def _power(unit: str) -> tuple[str, int] | None:
 
 def _rewrite(axis: Any, unit: str, wanted: tuple[str, int]) -> bool:
     """Write the numbers of one axis in a unit, where its label says that it has one of the same kind."""
-    from matplotlib.ticker import FuncFormatter
-
     label = axis.get_label_text()
     found = re.search(r"\[([^\]]+)\]", label)
     own = _power(found[1]) if found else None
@@ -174,6 +169,6 @@ def _rewrite(axis: Any, unit: str, wanted: tuple[str, int]) -> bool:
         scaled = value / 10.0**-power if power < 0 else value * 10.0**power  # powers of ten are exact that way
         return f"{scaled:.10g}".replace("-", "\N{MINUS SIGN}")
 
-    axis.set_major_formatter(FuncFormatter(written))
+    axis.set_major_formatter(matplotlib("matplotlib.ticker").FuncFormatter(written))
     axis.set_label_text(label.replace(found[0], f"[{unit}]"))
     return True

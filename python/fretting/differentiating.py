@@ -9,7 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from fretting import _case, _core
-from fretting._arguments import mapping, real, texts
+from fretting._arguments import mapping, real, text, texts
+from fretting._arrays import real_array
 
 
 class NearEvents(NamedTuple):
@@ -82,7 +83,10 @@ def gradient(
     RunError
         When the run fails, or the linear equations of an increment are not solved.
     """
-    found, near = _core.gradient(_case.read(case), texts("of", of), texts("by", by), threads)
+    results = texts("of", of)
+    if not results:
+        raise ValueError("of: expected at least one result, such as 'max_pressure'")
+    found, near = _core.gradient(_case.read(case), results, texts("by", by), threads)
     derivatives = Gradient({name: {"value": value, **by_path} for name, value, by_path, _ in found})
     if near is not None:
         derivatives.near_events = NearEvents(*near)
@@ -167,8 +171,9 @@ def vjp(
     """
     pairs, fields = [], []
     for name, weight in mapping("weights", weights).items():
+        text("weights", name)
         if isinstance(weight, np.ndarray) and weight.ndim > 0:
-            cells = np.asarray(weight, dtype=np.float64)
+            cells = real_array(f"weights[{name!r}]", weight)
             if cells.ndim > 2:
                 raise ValueError(f"weights[{name!r}]: expected the shape of a field, got {cells.shape}")
             fields.append((name, cells[:, None] if cells.ndim == 1 else cells))

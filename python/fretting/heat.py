@@ -34,7 +34,9 @@ def temperature(history: "History", cycle: int, frequency: float | None, threads
     if history.plan["case"]["friction"].get("max_shear") is not None:
         raise ValueError("temperature: heat by friction under friction.max_shear, a shear strength, is not computed")
     if _dataset.rolls(history, cycle):
-        raise ValueError("temperature: the contact rolls, and the heat of a cycle is taken to enter both bodies in the same places")
+        raise ValueError(
+            "temperature: the contact rolls, and the heat of a cycle is taken to enter both bodies in the same places"
+        )
     first, last = _dataset.span(history, cycle)
     increments = []
     if first == 0:

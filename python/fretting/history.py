@@ -11,11 +11,11 @@ import numpy as np
 import numpy.typing as npt
 
 from fretting import _core, _dataset, _notebook, differentiating, fatigue, heat, plot, stress
-from fretting._arguments import checked, of_kind, whole
+from fretting._arguments import checked, of_kind, text, whole
 from fretting._arrays import Reals
 from fretting._meaning import FIELD_NAMES, VECTORS, FieldName, VectorName
 from fretting._table import Copied, Kept, Table, of_cycles
-from fretting.errors import Fact, UnreadableError
+from fretting.errors import Fact, MissingFileError, UnreadableError
 
 if TYPE_CHECKING:
     import xarray
@@ -215,9 +215,9 @@ class History:
         IndexError
             When there is no such increment.
         TypeError
-            When `increment` is no whole number.
+            When `name` is no word or `increment` no whole number.
         """
-        if name in VECTORS:
+        if text("name", name) in VECTORS:
             return np.stack([self.field(part, increment) for part in (f"{name}_x", f"{name}_y")])  # type: ignore[arg-type]
         if name not in FIELD_NAMES:
             raise KeyError(f"no field is called {name!r}; fields are: {', '.join((*FIELD_NAMES, *VECTORS))}")
@@ -347,7 +347,7 @@ class History:
         ValueError
             When the folder holds something else, or the history was pickled: it then has no solved states.
         UnreadableError
-            When a file cannot be written.
+            When a file cannot be written; ``MissingFileError`` when the folder this history was opened from is gone.
         """
         place = Path(folder)
         if isinstance(self._kept, _core.History):
@@ -359,6 +359,9 @@ class History:
                 "save: a history that went through another process or a file holds no states; "
                 "save it where it was solved"
             )
+        if not self._folder.is_dir():
+            way = "a history that was opened from a folder reads it when it is saved, and that folder is gone"
+            raise MissingFileError(f"error: {self._folder}: no such folder\n  = help: {way}", str(self._folder))
         if place.exists() and (not place.is_dir() or any(place.iterdir())) and not replace:
             raise ValueError(f"{place}: holds something already\n  = help: choose another folder, or replace=True")
         try:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fretting import _case, _core
-from fretting._arguments import checked, content, mapping
-from fretting._fitted import Fitted
+from fretting._arguments import checked, content, matplotlib
+from fretting._fitted import Fitted, named
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -111,9 +111,7 @@ class Identification(Fitted):
 
     def _axes(self, axes: "Axes | None") -> "Axes":
         if axes is None:
-            from matplotlib import pyplot as plt
-
-            axes = plt.subplots()[1]
+            axes = matplotlib("matplotlib.pyplot").subplots()[1]
         units = self._answer["units"]
         force = f"{units['force']}/{units['length']}" if self._answer["line_contact"] else units["force"]
         axes.set(xlabel=f"displacement [{units['length']}]", ylabel=f"tangential force [{force}]")
@@ -179,12 +177,9 @@ def identify(
     RunError
         When a loop cannot be solved.
     """
-    named = {"columns": {} if columns is None else columns, "units": {} if units is None else units}
-    names_of, units_of = (list(mapping(name, given).items()) for name, given in named.items())
-    names_of = [(role, str(column) if isinstance(column, int) else column) for role, column in names_of]
     if every is not None and every < 1:
         msg = f"every = {every}: must be at least 1"
         raise ValueError(msg)
-    asked = names_of, units_of, cycle, every, fit, strict
+    asked = named("columns", columns, numbered=True), named("units", units), cycle, every, fit, strict
     json_text, page = _core.identify((str(log), content("log", log)), _case.read(case), asked, threads)
     return Identification(json.loads(json_text), page)

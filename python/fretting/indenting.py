@@ -6,11 +6,9 @@ from dataclasses import dataclass
 from os import PathLike
 from typing import TYPE_CHECKING, Any, Literal
 
-import numpy as np
-
 from fretting import _case, _core
-from fretting._arguments import checked, content, mapping, of_kind
-from fretting._fitted import Fitted
+from fretting._arguments import checked, content, matplotlib, of_kind
+from fretting._fitted import Fitted, named
 from fretting.identifying import Constant
 
 if TYPE_CHECKING:
@@ -85,9 +83,7 @@ class Indentation(Fitted):
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draw the measured points beside the computed curve, over the depth from the first touch on."""
         if ax is None:
-            from matplotlib import pyplot as plt
-
-            ax = plt.subplots()[1]
+            ax = matplotlib("matplotlib.pyplot").subplots()[1]
         units = self._answer["units"]
         ax.set(xlabel=f"depth [{units['length']}]", ylabel=f"load [{units['force']}]")
         ax.plot(self.measured["depth"], self.measured["force"], ".", ms=3, label="measured")
@@ -166,16 +162,6 @@ def identify_indentation(
         of_kind("fit", key, str)
     if not keys and not frame:
         raise ValueError("fit: nothing is fitted but the depth at first touch; name a key of the case, or frame=True")
-    named = {"columns": {} if columns is None else columns, "units": {} if units is None else units}
-    names_of, units_of = (list(mapping(name, given).items()) for name, given in named.items())
-    names_of = [(role, _column(column)) for role, column in names_of]
-    asked = names_of, units_of, keys, part, touch, frame, strict
+    asked = named("columns", columns, numbered=True), named("units", units), keys, part, touch, frame, strict
     json_text, page = _core.identify_indentation((str(log), content("log", log)), _case.read(case), asked, threads)
     return Indentation(json.loads(json_text), page)
-
-
-def _column(column: object) -> str:
-    """Return the name of a column; a number counts from 1."""
-    if isinstance(column, int | np.integer) and not isinstance(column, bool):
-        return str(int(column))
-    return of_kind("columns", column, str)

@@ -3,8 +3,11 @@
 from collections.abc import Callable, Iterable
 from typing import Any
 
-import jax
-import jax.numpy as jnp
+try:
+    import jax
+    import jax.numpy as jnp
+except ImportError as error:
+    raise ImportError("fretting.jax needs JAX: pip install jax") from error
 
 from fretting import _case
 from fretting._function import Results

@@ -1,7 +1,7 @@
 """Surface response of layered half-spaces, and convolutions of fields with it."""
 
 from collections.abc import Mapping
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -128,9 +128,17 @@ class Convolution:
     @checked
     def __init__(self, values: npt.ArrayLike, *, parity: Parity = "even-even") -> None:
         kernel = real_array("values", values, dimensions=2)
-        room_for(f"values of shape {kernel.shape}", 8 * kernel.size)  # the transformed kernel, and the work on a field
+        room_for(f"values of shape {kernel.shape}", 9 * kernel.size)  # kernel, its transform, and the work on a field
         self._product = _core.Convolution(kernel, parity)
-        self._parity = parity
+        self._values, self._parity = kernel.copy(), parity
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what it was made of."""
+        return {"values": self._values, "parity": self._parity}
+
+    def __setstate__(self, made_of: dict[str, Any]) -> None:
+        """Make it again."""
+        self.__init__(**made_of)  # type: ignore[misc]
 
     @property
     def shape(self) -> tuple[int, int]:

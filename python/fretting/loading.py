@@ -46,7 +46,7 @@ def open_results(folder: str | os.PathLike[str]) -> History:
     path = Path(folder)
     if not path.exists():
         _refuse(path, "no such folder", "give the folder that `fret run CASE --out FOLDER` wrote", missing=True)
-    stored = _core.StoredRun(path)
+    stored = _core.StoredRun(path.absolute())  # fields are read later, when the current folder may be another
     record = json.loads(stored.record())
     history = History.__new__(History)
     history._take(stored, record)

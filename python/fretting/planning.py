@@ -60,6 +60,8 @@ class Plan(Mapping[str, Any]):
 
     def __getitem__(self, key: str) -> Any:
         """Entry of that name."""
+        if key not in self._entries:
+            raise KeyError(f"a plan has no {key!r}; it has: {', '.join(self._entries)}")
         return self._entries[key]
 
     def __iter__(self) -> Iterator[str]:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from fretting._arguments import checked, needed, texts
+from fretting._arguments import checked, matplotlib, texts
 from fretting._arguments import variable as _variable
 from fretting._arrays import Reals
 from fretting._bands import band, band_map, loop_band
@@ -141,8 +141,7 @@ def loop_stack(
     numbers, rows = _loops(history, stage)
     if not rows:
         raise ValueError("no cycles: a stack of loops needs a stage with cycles = ...")
-    from matplotlib import colormaps
-
+    colormaps = matplotlib().colormaps
     if cmap not in colormaps:
         raise ValueError(f"cmap = {cmap!r}: matplotlib has no colours of that name")
     if getattr(ax, "name", "3d") != "3d":
@@ -204,6 +203,8 @@ def section(
             raise ValueError("along = 'y': nothing changes along the line of a line contact")
         at = 0.0
     names = texts("fields", fields)
+    if not names:
+        raise ValueError("fields: expected at least one")
     here, across = (history.x, history.y) if along == "x" else (history.y, history.x)
     half = 0.5 * (across[1] - across[0]) if len(across) > 1 else np.inf
     if not across[0] - half <= at <= across[-1] + half:
@@ -322,9 +323,9 @@ def animation(
     matplotlib FuncAnimation
         ``.save("loop.gif", writer="pillow")`` writes it, ``.to_jshtml()`` shows it in a notebook. Keep a reference.
     """
+    if interval < 1:
+        raise ValueError(f"interval = {interval}: must be at least 1 ms")
     plt = _pyplot()
-    from matplotlib.animation import FuncAnimation
-
     chosen = set(_loop_rows(history, stage).tolist())
     kept = [increment for increment in history.kept_increments if increment in chosen]
     if not kept:
@@ -348,7 +349,10 @@ def animation(
         left.set_title(f"increment {increment}", fontsize="medium")
         return [dot, image]
 
-    return FuncAnimation(figure, draw, frames=len(kept), interval=interval)
+    moving: FuncAnimation = matplotlib("matplotlib.animation").FuncAnimation(
+        figure, draw, frames=len(kept), interval=interval
+    )
+    return moving
 
 
 @checked
@@ -387,9 +391,7 @@ def regime_map(
     words = [name for name, _ in REGIMES]
     codes = np.asarray([[words.index(w) if w in words else np.nan for w in row] for row in data.values.tolist()])
     axes = _own_axes(ax)
-    from matplotlib.colors import ListedColormap
-
-    colours = ListedColormap([colour for _, colour in REGIMES])
+    colours = matplotlib("matplotlib.colors").ListedColormap([colour for _, colour in REGIMES])
     edges = [_edges(np.asarray(dataset[name].values, dtype=np.float64), name) for name in (x, y)]
     fixed: dict[str, Any] = {"cmap": colours, "vmin": -0.5, "vmax": len(REGIMES) - 0.5}
     axes.pcolormesh(*edges, codes, **{"edgecolors": "white", "lw": 0.4, **mesh, **fixed})
@@ -405,7 +407,7 @@ def _with_unit(axis: "xarray.DataArray") -> str:
 
 
 def _pyplot() -> Any:
-    return needed("matplotlib.pyplot", "figures need matplotlib: pip install 'fretting[plot]'")
+    return matplotlib("matplotlib.pyplot")
 
 
 def _long_names(line: dict[str, Any]) -> dict[str, Any]:
@@ -423,10 +425,9 @@ def _own_axes(axes: "Axes | None") -> "Axes":
 
 def _size(own: tuple[float, float]) -> tuple[float, float]:
     """Return the size of a figure: what a style has chosen, or its own [inches]."""
-    import matplotlib as mpl
-
-    chosen = mpl.rcParams["figure.figsize"]
-    if list(chosen) == list(mpl.rcParamsDefault["figure.figsize"]):
+    library = matplotlib()
+    chosen = library.rcParams["figure.figsize"]
+    if list(chosen) == list(library.rcParamsDefault["figure.figsize"]):
         return own
     return float(chosen[0]), float(chosen[1])
 
@@ -533,12 +534,11 @@ def _image(
     words: Sequence[tuple[str, str]] | None = None,
     limits: tuple[float, float] | None = None,
 ) -> "AxesImage":
-    from matplotlib.colors import ListedColormap
-
     edges = (*_ends(history.x), *((0.0, 1.0) if history.is_line else _ends(history.y)))
     values = values.reshape(len(history.x), len(history.y))
     low, high = (-0.5, len(words) - 0.5) if words else limits or _limits(values)
-    colours = ListedColormap([c for _, c in words]) if words else "RdBu_r" if low < 0.0 else "viridis"
+    named = matplotlib("matplotlib.colors").ListedColormap
+    colours = named([c for _, c in words]) if words else "RdBu_r" if low < 0.0 else "viridis"
     look = {"cmap": colours, "vmin": low, "vmax": high, "interpolation": "nearest", **keywords}
     if "norm" in keywords:
         del look["vmin"], look["vmax"]
@@ -584,9 +584,8 @@ def _edges(centres: Reals, name: str) -> Reals:
 
 def _colour_legend(axes: Any, entries: Sequence[tuple[str, str]]) -> None:
     """Name the colours above the axes, where they hide nothing of what is drawn."""
-    from matplotlib.patches import Patch
-
-    patches = [Patch(facecolor=colour, edgecolor="0.6", label=word.replace("_", " ")) for word, colour in entries]
+    patch = matplotlib("matplotlib.patches").Patch
+    patches = [patch(facecolor=colour, edgecolor="0.6", label=word.replace("_", " ")) for word, colour in entries]
     small = {"fontsize": "x-small", "handlelength": 1.0, "borderpad": 0.2, "labelspacing": 0.25, "columnspacing": 0.8}
     above = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "borderaxespad": 0.2, "frameon": False}
     # three short words fit above a panel of half a column

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from fretting import _case, _core, _start
-from fretting._arguments import path
+from fretting._arguments import path, truth
 from fretting._progress import ProgressLine
 from fretting.errors import FrettingWarning, OutOfMemoryError, RunError, RunInterrupted, warn
 from fretting.history import History
@@ -109,6 +109,8 @@ def run(
     10.000 0.500
     10.000 1.000
     """
+    resume, replace = truth("resume", resume), truth("replace", replace)
+    estimate_error = truth("estimate_error", estimate_error)
     if folder is not None:
         folder = path("folder", folder)
     if folder is None and (resume or replace):

@@ -95,7 +95,8 @@ def coordinates(history: "History", answer: dict[str, npt.NDArray[Any]]) -> dict
 
 def points(depths: npt.ArrayLike) -> list[float]:
     """Return depths as a list."""
-    points: list[float] = real_array("depths", np.atleast_1d(np.asarray(depths)), dimensions=1).tolist()
+    known = np.atleast_1d(real_array("depths", depths))
+    points: list[float] = real_array("depths", known, dimensions=1).tolist()
     return points
 
 

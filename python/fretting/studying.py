@@ -1,13 +1,16 @@
 """Refinement studies."""
 
 import json
+import os
+import warnings
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from fretting import _case, _core, _dataset
-from fretting._arguments import reals, wholes
+from fretting._arguments import content, reals, truth, wholes
+from fretting.errors import FrettingWarning
 
 if TYPE_CHECKING:
     import xarray
@@ -38,6 +41,11 @@ _NUMBERS = {
     "order_of_shear": "observed order of the shear error",
     "wall_s": "time of the level [s]",
 }
+_NO_ERRORS = (
+    "study: no errors: no closed form is available for this case, and a single level cannot be compared with a finer "
+    "one; give more levels, as in cells=[32, 64, 128], or numbers with against=FILE"
+)
+"""What the command says of such a study, in the words of Python."""
 
 
 def study(
@@ -46,7 +54,7 @@ def study(
     cells: Iterable[int] = (),
     increments: Iterable[int] = (),
     tolerances: Iterable[float] = (),
-    against: Literal["analytic", "finest"] | str | None = None,
+    against: Literal["analytic", "finest"] | str | os.PathLike[str] | None = None,
     threads: int | None = None,
     progress: bool = False,
 ) -> "xarray.Dataset":
@@ -89,14 +97,24 @@ def study(
         When the case is refused.
     ValueError
         When a resolution cannot be had.
+    UnreadableError
+        When the file of the reference cannot be read; ``MissingFileError`` when there is none.
     RunError
         When the finest level cannot be solved.
+
+    Warns
+    -----
+    FrettingWarning
+        When no error is known: a single level, without a closed form or numbers to compare it with.
     """
     module = _dataset.module("study")
+    if against is not None and not (isinstance(against, str) and against in ("analytic", "finest")):
+        content("against", against)  # refuses what is no file
+        against = os.fspath(against)
     resolutions = wholes("cells", cells), wholes("increments", increments), reals("tolerances", tolerances), against
     if any(number < 1 for number in resolutions[0] + resolutions[1]):
         raise ValueError(f"cells = {resolutions[0]}, increments = {resolutions[1]}: must be positive")
-    answer = json.loads(_core.study(_case.read(case), resolutions, threads, progress))
+    answer = json.loads(_core.study(_case.read(case), resolutions, threads, truth("progress", progress)))
     levels = [(line["refined"], level) for line in answer["lines"] for level in line["levels"]]
 
     def numbers(values: Iterable[float | None]) -> list[float]:
@@ -112,16 +130,19 @@ def study(
     }
     for name, meaning in _NUMBERS.items():
         variables[name] = ("level", np.asarray(numbers(level[name] for _, level in levels)), {"long_name": meaning})
+    if not any(np.isfinite(variables[name][1]).any() for name in _READINGS):
+        warnings.warn(_NO_ERRORS, FrettingWarning, stacklevel=2)
     variables["convolutions"] = ("level", np.asarray([level["work"]["convolutions"] for _, level in levels], dtype=int))
     variables["is_efficient"] = ("level", np.asarray([level["is_efficient"] for _, level in levels], dtype=bool))
+    increments_of = ["/".join(map(str, level["increments"])) for _, level in levels]
     coordinates: dict[str, Any] = {
         "quantity": ("quantity", list(QUANTITIES)),
         "measured_by": ("quantity", [str(answer["measured_by"][q] or "") for q in QUANTITIES]),
         "convergence": ("quantity", [str(answer["convergence"][q] or "") for q in QUANTITIES]),
-        "refined": ("level", [refined for refined, _ in levels]),
+        "refined": ("level", np.asarray([refined for refined, _ in levels], dtype=str)),
         "nx": ("level", np.asarray([level["cells"][0] for _, level in levels], dtype=int)),
         "ny": ("level", np.asarray([level["cells"][1] for _, level in levels], dtype=int)),
-        "increments": ("level", ["/".join(map(str, level["increments"])) for _, level in levels]),
+        "increments": ("level", np.asarray(increments_of, dtype=str)),
         "tolerance": ("level", np.asarray([level["tolerance"] for _, level in levels], dtype=float)),
     }
     attributes = {

@@ -13,10 +13,10 @@ import numpy as np
 import numpy.typing as npt
 
 from fretting import _case, _core, _start
-from fretting._arguments import needed, path
+from fretting._arguments import needed, path, truth, word
 from fretting._meaning import CYCLE_MEANING, MEANING, described, in_units
-from fretting._measuring import UNMEASURED, Measuring, measured, measured_variable
-from fretting._paths import Table
+from fretting._measuring import UNMEASURED, Measuring, all_measured, measured_variable
+from fretting._paths import Table, steps
 from fretting._points import Dimension, Draw, Parameters, Point, dimensions, is_uncertain, points
 from fretting._progress import PointLine
 from fretting._sweep_folder import SweepFolder
@@ -60,13 +60,12 @@ def sweep(
         As for :func:`fretting.run`.
     parameters : mapping or list of mappings
         A mapping from keys of the case to values gives their Cartesian product. A key is dotted
-        (``"friction.coefficient"``); entries of lists go by number or, stages, by name (``"load.1.shift"``,
-        ``"load.indent.normal_force"``, ``"load.1.tangential_force.0"``). A tuple of keys with tuples of values makes
-        several keys change together; a name with a :class:`Parameter` stands for a key of the
-        case, or changes the case by a function. A list of mappings
-        from keys to values is a list of points, along one dimension ``point``. A :class:`Distribution` in place of
-        values makes a key uncertain: all of them are drawn together, along one dimension ``sample``, beside the other
-        axes.
+        (``"friction.coefficient"``); entries of lists go by number or, stages, by name (``"load.1.shift"`` or
+        ``"load[1].shift"``, ``"load.indent.normal_force"``, ``"load.1.tangential_force.0"``). A tuple of keys with
+        tuples of values makes several keys change together; a name with a :class:`Parameter` stands for a key of the
+        case, or changes the case by a function. A list of mappings from keys to values is a list of points, along one
+        dimension ``point``. A :class:`Distribution` in place of values makes a key uncertain: all of them are drawn
+        together, along one dimension ``sample``, beside the other axes.
     executor : concurrent.futures.Executor, optional
         Where the points are solved: threads, processes, a dask client's ``get_executor()``, ``MPIPoolExecutor``.
         Default: the calling thread, one after the other. What points begin with alike is solved once, in this thread
@@ -77,9 +76,9 @@ def sweep(
         (dimension ``increment``).
     measure : callable, optional
         Called with the :class:`History` of every solved point, where it was solved; the numbers, words and arrays of
-        the mapping it returns become variables. What it raises at the first point that is solved ends the sweep; at a
-        later one the numbers of the point stay, what is measured is missing (NaN, or an empty text), and ``error``
-        says why. An executor of processes needs a function that can be pickled.
+        the mapping it returns (``{"peak": 1e9}``) become variables. What it raises at the first point that is solved
+        ends the sweep; at a later one the numbers of the point stay, what is measured is missing (NaN, or an empty
+        text), and ``error`` says why. An executor of processes needs a function that can be pickled.
     folder : path, optional
         Where finished points are written down, each as soon as it is solved; points found there are not solved again.
         A point that changed in any way (another base case, a file it names, `keep`, the version) is another point.
@@ -141,11 +140,14 @@ def sweep(
     (('load.0.normal_force', 'lower.substrate.poisson'), (2, 3))
     """
     needed("xarray", _NEEDS_XARRAY)
-    if keep not in _LENGTH:
-        raise ValueError(f"keep = {keep!r}: must be one of {', '.join(_LENGTH)}")
+    word("keep", keep, tuple(_LENGTH))
+    if executor is not None and not callable(getattr(executor, "submit", None)):
+        raise TypeError(f"executor: expected a concurrent.futures.Executor, found {type(executor).__name__}")
+    if measure is not None and not callable(measure):
+        raise TypeError(f"measure: expected a function of a History, found {type(measure).__name__}")
     _core.check_threads(threads)
     base = _as_table(base_case)
-    draw = Draw(samples, seed, indices)
+    draw = Draw(samples, seed, truth("indices", indices))
     found = dimensions(parameters, draw)
     asked = list(points(base, found))
     settings = {"keep": keep, "measure": None if measure is None else _name_of(measure)}
@@ -301,7 +303,7 @@ def _solve(task: _Task, point: tuple[_core.InCommon, int] | None = None) -> _Sol
     found, failure = {}, None
     if task.asked.measure is not None:
         try:
-            found = {name: measured(name, value) for name, value in dict(task.asked.measure(history)).items()}
+            found = all_measured(task.asked.measure(history))
         except Exception as error:  # a mistake of the function, not of the point
             failure = error
     steps = {
@@ -436,7 +438,7 @@ def _dataset(
             plain = all(isinstance(value, int | float | str) for value in values)
             label = key if plain else f"{key}_values"
             entries = np.asarray(values if plain else [json.dumps(value) for value in values])
-            kind = _core.kind_of_key(dimension.keys.get(key, key)) if units else None
+            kind = _core.kind_of_key(".".join(steps(dimension.keys.get(key, key)))) if units else None
             coordinates[label] = (dimension.name, entries, {"units": in_units(kind, units)} if kind else {})
     if extra and length:
         coordinates[extra] = (extra, np.arange(length))

@@ -3,8 +3,11 @@
 from collections.abc import Callable, Iterable
 from typing import Any
 
-import torch
-from torch.autograd.function import once_differentiable
+try:
+    import torch
+    from torch.autograd.function import once_differentiable
+except ImportError as error:
+    raise ImportError("fretting.torch needs PyTorch: pip install torch") from error
 
 from fretting import _case
 from fretting._function import Results

@@ -1,6 +1,7 @@
 """Uncertain inputs of a sweep: distributions, and what their samples say about the results."""
 
 import json
+import math
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -20,12 +21,35 @@ STATISTICS = ("mean", "deviation", "min", "max")
 
 @dataclass(frozen=True)
 class Distribution:
-    """Distribution of an uncertain number of the case: a value of a key in the parameters of :func:`fretting.sweep`."""
+    """Distribution of an uncertain number of the case: a value of a key in the parameters of :func:`fretting.sweep`.
+
+    The base of :class:`Uniform`, :class:`Normal`, :class:`Lognormal`, :class:`Triangular` and :class:`Weibull`, which
+    raise a ``TypeError`` when an argument is no number, a ``ValueError`` when it is not finite or out of its range.
+    """
+
+    def __post_init__(self) -> None:
+        """Check the arguments."""
+        if type(self) is Distribution:
+            raise TypeError(
+                "Distribution: the base of all distributions, none itself; make a Uniform, Normal, Lognormal, "
+                "Triangular or Weibull"
+            )
+        for name, value in asdict(self).items():
+            number = real(name, value)
+            if not math.isfinite(number):
+                raise ValueError(f"{name} = {number}: must be finite")
+            object.__setattr__(self, name, number)
+
+    def _must_be_positive(self, *names: str) -> None:
+        for name in names:
+            number = getattr(self, name)
+            if number <= 0.0:
+                raise ValueError(f"{name} = {number}: must be positive")
 
     def _described(self) -> dict[str, Any]:
         name = type(self).__name__.lower()
         words = {"low": "from", "high": "to"}
-        return {name: {words.get(key, key): real(key, value) for key, value in asdict(self).items()}}
+        return {name: {words.get(key, key): value for key, value in asdict(self).items()}}
 
 
 @dataclass(frozen=True)
@@ -37,6 +61,12 @@ class Uniform(Distribution):
     high: float
     """Upper bound."""
 
+    def __post_init__(self) -> None:
+        """Check the arguments."""
+        super().__post_init__()
+        if self.low >= self.high:
+            raise ValueError(f"low = {self.low}, high = {self.high}: low must lie below high")
+
 
 @dataclass(frozen=True)
 class Normal(Distribution):
@@ -47,6 +77,11 @@ class Normal(Distribution):
     deviation: float
     """Standard deviation."""
 
+    def __post_init__(self) -> None:
+        """Check the arguments."""
+        super().__post_init__()
+        self._must_be_positive("deviation")
+
 
 @dataclass(frozen=True)
 class Lognormal(Distribution):
@@ -56,6 +91,11 @@ class Lognormal(Distribution):
     """Mean of the number itself."""
     deviation: float
     """Standard deviation of the number itself."""
+
+    def __post_init__(self) -> None:
+        """Check the arguments."""
+        super().__post_init__()
+        self._must_be_positive("mean", "deviation")
 
 
 @dataclass(frozen=True)
@@ -69,6 +109,13 @@ class Triangular(Distribution):
     high: float
     """Upper bound."""
 
+    def __post_init__(self) -> None:
+        """Check the arguments."""
+        super().__post_init__()
+        if not (self.low <= self.mode <= self.high and self.low < self.high):
+            found = f"low = {self.low}, mode = {self.mode}, high = {self.high}"
+            raise ValueError(f"{found}: low must lie below high, and mode between them or at one")
+
 
 @dataclass(frozen=True)
 class Weibull(Distribution):
@@ -78,6 +125,11 @@ class Weibull(Distribution):
     """Shape (modulus) [-]."""
     scale: float
     """The value below which 63.2 % lie."""
+
+    def __post_init__(self) -> None:
+        """Check the arguments."""
+        super().__post_init__()
+        self._must_be_positive("shape", "scale")
 
 
 def drawn(distributions: list[Distribution], count: int, seed: int, indices: bool) -> list[list[float]]:

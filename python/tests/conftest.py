@@ -34,7 +34,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     site = tmp_path_factory.mktemp("site")
     call = [sys.executable, "-m", "mkdocs", "build", "--quiet", "--site-dir", str(site)]
     subprocess.run(
-        call, check=True, cwd=ROOT, timeout=120, env={"NO_MKDOCS_2_WARNING": "1", "PATH": ""}, capture_output=True
+        call, check=True, cwd=ROOT, timeout=600, env={"NO_MKDOCS_2_WARNING": "1", "PATH": ""}, capture_output=True
     )
     return site
 

@@ -111,6 +111,69 @@ def test_public_functions_raise_what_their_pages_name(tmp_path: Path, monkeypatc
     assert not undocumented, "\n".join(undocumented)
 
 
+RAGGED: Any = [[1.0, 2.0], [3.0]]
+THREE: Any = 3
+WORD: Any = "x"
+NOTHING: Any = None
+WRONG: list[tuple[Callable[[Any], Any], type[Exception], str]] = [
+    (lambda _: SPHERE.pressure(RAGGED), ValueError, "r: expected an array of real numbers"),
+    (lambda _: fretting.Convolution(RAGGED), ValueError, "values: expected an array of real numbers"),
+    (lambda history: history.subsurface(RAGGED), ValueError, "depths: expected an array of real numbers"),
+    (lambda _: analytic.hertz_ellipse(radius_x=1.0, radius_y=2.0, force=1.0, modulus=1.0).pressure([1, 2], [1, 2, 3]),
+     ValueError, r"x, y of shapes \(2,\), \(3,\): must fit each other"),
+    (lambda _: fretting.gradient(CASE, of=[]), ValueError, "of: expected at least one result"),
+    (lambda _: fretting.vjp(CASE, {"pressure": np.array([["a"]])}), TypeError, r"weights\['pressure'\]: expected real"),
+    (lambda _: fretting.vjp(CASE, {THREE: 1.0}), TypeError, "weights: expected a str, found int"),
+    (lambda _: fretting.plan(CASE)["cells"], KeyError, "a plan has no 'cells'; it has: .*grid"),
+    (lambda _: fretting.sweep(CASE, [{THREE: 0.3}]), TypeError, "parameters: .* 3 is no key"),
+    (lambda history: plot.scale(history.plot_loop(), THREE), TypeError, r"units\[0\]: expected a str, found int"),
+    (lambda history: plot.section(history, []), ValueError, "fields: expected at least one"),
+    (lambda history: plot.animation(history, interval=-1), ValueError, "interval = -1: must be at least 1 ms"),
+    (lambda history: history.field(np.zeros(2)), TypeError, "name: expected a str, found ndarray"),
+    (lambda history: history.fatigue([0.0], constants=3), TypeError, "constants: expected a mapping, found int"),
+    (lambda history: history.crack(constants={"yield_strength": np.nan}), ValueError, "constants.yield_strength = nan"),
+    (lambda history: fretting.run(CASE, start=(history, WORD)), TypeError, "start.* = 'x': must be a whole number"),
+    (lambda _: fretting.identify("/dev/null", case=CASE, columns={THREE: "x"}), TypeError, "columns: expected a str"),
+    (lambda _: fretting.identify("/dev/null", case=CASE, columns={"force": NOTHING}), TypeError, r"columns\[.force"),
+    (lambda _: fretting.identify_indentation("/dev/null", case=CASE, frame=True, units={"force": THREE}), TypeError,
+     r"units\['force'\]: expected a str, found int"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("call", "kind", "words"), WRONG)
+def test_a_wrong_argument_is_named(call: Callable[[Any], Any], kind: type[Exception], words: str) -> None:
+    pytest.importorskip("matplotlib").use("Agg")
+    pytest.importorskip("xarray")
+    with pytest.raises(kind, match=words) as raised:
+        call(fretting.run(CASE))
+    assert type(raised.value) in (kind, fretting.CaseError)
+
+
+def test_tuples_and_arrays_are_lists_of_a_case_everywhere() -> None:
+    """What a run takes, derivatives, first order and sweeps take too."""
+    pytest.importorskip("xarray")
+    case = {**CASE, "load": (CASE["load"][0], {**CASE["load"][1], "tangential_force": np.array([0.5, 0.0])})}
+    key = "load[1].tangential_force[0]"
+    spread = {key: fretting.Normal(0.5, 0.01)}
+    lists, others = (fretting.first_order(one, spread, of="max_shear") for one in (CASE, case))
+    assert lists.equals(others)
+    swept = [fretting.sweep(one, {key: [0.4]})["max_shear"] for one in (CASE, case)]
+    assert swept[0].equals(swept[1])
+
+
+def test_histories_in_closed_form_can_be_compared() -> None:
+    def history(force: float) -> analytic.TangentialHistory:
+        given: dict[str, Any] = {"friction_coefficient": 0.3, "shear_modulus": 1.0, "tangential_forces": [0.1, force]}
+        return analytic.tangential_history(SPHERE, **given)
+
+    def line(force: float) -> analytic.LineHistory:
+        return analytic.line_history(LINE, friction_coefficient=0.3, tangential_forces=[0.1, force])
+
+    for made in (history, line):
+        assert made(0.2) == made(0.2) != made(0.1)
+        assert made(0.2) != "another"
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [

@@ -1,6 +1,7 @@
 """Names, shapes and number types of what a run leaves behind."""
 
 import importlib.util
+import io
 import pickle
 from pathlib import Path
 from typing import Any, get_args
@@ -183,6 +184,39 @@ def test_progress_is_told_after_every_increment(
     assert [step["normal_force"] for step in heard] == list(history.increments["normal_force"])
     fretting.run(sphere_case, progress=True)
     assert "increment 2  " in capsys.readouterr().err
+
+
+class Gone:
+    """A stderr whose terminal has gone away."""
+
+    def isatty(self) -> bool:
+        """It was one."""
+        return True
+
+    def write(self, text: str) -> int:
+        """Nobody reads it."""
+        raise BrokenPipeError
+
+    def flush(self) -> None:
+        """Nobody reads it."""
+        raise BrokenPipeError
+
+
+def closed() -> io.StringIO:
+    stream = io.StringIO()
+    stream.close()
+    return stream
+
+
+@pytest.mark.parametrize("stderr", [None, Gone(), closed()], ids=["none, as under pythonw", "gone", "closed"])
+def test_a_run_goes_on_where_its_progress_cannot_be_told(
+    sphere_case: dict[str, Any], monkeypatch: pytest.MonkeyPatch, stderr: Any
+) -> None:
+    sphere_case["grid"]["cells"] = [16, 16]
+    monkeypatch.setattr("sys.stderr", stderr)
+    assert fretting.run(sphere_case, progress=True).finished
+    pytest.importorskip("xarray")
+    assert fretting.sweep(sphere_case, {"load.0.normal_force": [6.0, 12.0]}, progress=True)["approach"].size == 2
 
 
 def test_what_progress_raises_ends_the_run(sphere_case: dict[str, Any]) -> None:

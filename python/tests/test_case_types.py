@@ -54,6 +54,6 @@ history = fretting.run(case)
     for key, code in (("poisson", 0), ("poison", 1)):
         (tmp_path / "case.py").write_text(text.replace("KEY", key))
         call = [sys.executable, "-m", "mypy", "--strict", "case.py"]
-        done = subprocess.run(call, capture_output=True, text=True, timeout=300, check=False, cwd=tmp_path)
+        done = subprocess.run(call, capture_output=True, text=True, timeout=600, check=False, cwd=tmp_path)
         assert done.returncode == code, done.stdout + done.stderr
     assert fretting.Case is case_types.Case

@@ -73,7 +73,7 @@ def run_shell(text: str, folder: Path) -> None:
         words = [sys.executable, "-m", "fretting", *shlex.split(command)[1:]]
         if "CASE" in words or "DIR" in words:
             continue
-        done = subprocess.run(words, capture_output=True, text=True, timeout=120, check=False, cwd=folder)
+        done = subprocess.run(words, capture_output=True, text=True, timeout=600, check=False, cwd=folder)
         assert done.returncode == 0, f"{command}\n{done.stderr}"
 
 
@@ -213,7 +213,7 @@ def test_the_site_builds_without_a_warning(tmp_path: Path) -> None:
         pytest.importorskip(name)
     done = subprocess.run(
         [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", tmp_path / "site"],
-        capture_output=True, text=True, timeout=120, check=False, cwd=ROOT,
+        capture_output=True, text=True, timeout=600, check=False, cwd=ROOT,
         env={"NO_MKDOCS_2_WARNING": "1", "PATH": ""},
     )  # fmt: skip
     assert (done.returncode, done.stdout.strip()) == (0, ""), done.stdout + done.stderr
@@ -251,3 +251,28 @@ def test_the_page_of_the_rig_shows_what_log_and_model_give(monkeypatch: pytest.M
         expected = [form.format(factor * values[-1]) for values in (measured, computed)]
         shown = next(line for line in page.splitlines() if line.startswith(f"| {name} |")).split("|")[2:4]
         assert [cell.split()[0] for cell in shown] == expected, name
+
+
+def test_names_on_the_page_of_extensions_are_in_the_program() -> None:
+    """Files, functions and types that stand there between backticks; results of a run are no files of the program."""
+    listed = [path for part in ("crates", "docs", "python", "tests") for path in (ROOT / part).rglob("*.*")]
+    program = [path for path in listed if path.suffix in (".rs", ".py", ".toml")]
+    words = {word for path in program for word in re.findall(r"\w+", path.read_text(encoding="utf-8"))}
+    gone = []
+    for term in re.findall(r"`([^`\n]+)`", (ROOT / "docs" / "developers" / "extend.md").read_text(encoding="utf-8")):
+        if re.fullmatch(r"[\w/-]+\.(rs|py|css|toml)", term):
+            if not any(path.as_posix().endswith(f"/{term}") for path in listed):
+                gone.append(term)
+        elif re.fullmatch(r"\w+(::\w+)*", term) and not set(term.split("::")) <= words:
+            gone.append(term)
+    assert not gone
+
+
+def test_the_page_of_messages_says_what_the_program_says(tmp_path: Path) -> None:
+    lines = ["[grid]", "cells = [16, 16]", 'size = "auto"', "[upper]", "rigid = true", "[lower.substrate]"]
+    lines += ["young = 210e9", "poisson = 0.3", "[[load]]", "normal_force = 1.0", "increments = 1"]
+    lines += ["[profile.sphere]", "radius = -10e-3", "", "[friction]", "coeficient = 0.2", ""]
+    (tmp_path / "ball.toml").write_text("\n".join(lines), encoding="utf-8")
+    call = [sys.executable, "-m", "fretting", "check", "ball.toml"]
+    told = subprocess.run(call, capture_output=True, text=True, timeout=600, check=False, cwd=tmp_path).stderr
+    assert told.strip() in (ROOT / "docs" / "reference" / "messages.md").read_text(encoding="utf-8")

@@ -1,8 +1,7 @@
 """What ``fret export`` writes, opened by the programs it is written for."""
 
-import os
-import shutil
 import subprocess
+import sys
 import warnings
 from pathlib import Path
 
@@ -32,21 +31,16 @@ every = 2
 """
 
 
-def command() -> str:
-    """The command as it is installed, or as it was built beside these tests."""
-    root = Path(__file__).parents[2]
-    target = Path(os.environ.get("CARGO_TARGET_DIR", root / "target"))
-    found = shutil.which("fret") or shutil.which("fret", path=target / "release")
-    return found or pytest.skip("the command fret is not built")
+FRET = [sys.executable, "-m", "fretting"]
+"""The command that belongs to the package under test, whatever is called so on the path."""
 
 
 @pytest.fixture(scope="module")
 def results(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("exchange")
     (folder / "case.toml").write_text(CASE)
-    fret = command()
-    subprocess.run([fret, "run", "case.toml", "--out", "run", "--quiet"], cwd=folder, check=True)
-    subprocess.run([fret, "export", "run", "--npz", "--vtk", "--csv"], cwd=folder, check=True, capture_output=True)
+    subprocess.run([*FRET, "run", "case.toml", "--out", "run", "--quiet"], cwd=folder, check=True)
+    subprocess.run([*FRET, "export", "run", "--npz", "--vtk", "--csv"], cwd=folder, check=True, capture_output=True)
     return folder / "run"
 
 
@@ -78,7 +72,7 @@ def test_zarr_opens_the_store_of_a_history_whose_length_was_not_known(tmp_path: 
     zarr = pytest.importorskip("zarr")
     case = CASE.replace("increments = 4", "cycles = 9\nincrements = 8") + "[wear]\ncoefficient = 1e-12\nevery = 4\n"
     (tmp_path / "case.toml").write_text(case.replace("every = 2\n[wear]", "every = 8\n[wear]"))
-    subprocess.run([command(), "run", "case.toml", "--out", "run", "--quiet"], cwd=tmp_path, check=True)
+    subprocess.run([*FRET, "run", "case.toml", "--out", "run", "--quiet"], cwd=tmp_path, check=True)
     group = zarr.open_group(tmp_path / "run" / "fields.zarr", mode="r", use_consolidated=True)
     alone = zarr.open_array(tmp_path / "run" / "fields.zarr" / "pressure", mode="r")
     assert group["pressure"].shape == alone.shape == (len(group["increment"][:]), 20, 16)

@@ -36,7 +36,7 @@ def test_a_forked_child_can_run_after_its_parent() -> None:
         [sys.executable, "-W", "ignore::DeprecationWarning", "-c", RUN_IN_PARENT_AND_CHILDREN],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=600,
         check=False,
     )
     assert (done.returncode, done.stdout) == (0, "done\n"), done.stderr

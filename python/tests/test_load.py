@@ -2,6 +2,7 @@
 
 import json
 import pickle
+import re
 import shutil
 from pathlib import Path
 from typing import Any
@@ -87,6 +88,22 @@ def test_a_pickled_history_does_without_its_folder(copy: Path) -> None:
     np.testing.assert_array_equal(again.field("pressure"), field)
     with pytest.raises(KeyError, match="columns are: increment"):
         again.increments["presure"]
+
+
+def test_fields_are_found_from_another_current_folder(copy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(copy.parent)
+    history, expected = fretting.open_results(copy.name), fretting.open_results(copy).field("pressure")
+    monkeypatch.chdir("/")
+    np.testing.assert_array_equal(history.field("pressure"), expected)
+
+
+def test_a_folder_that_is_gone_is_named_when_its_history_is_saved(copy: Path, tmp_path: Path) -> None:
+    history = fretting.open_results(copy)
+    shutil.rmtree(copy)
+    with pytest.raises(fretting.MissingFileError, match=f"{re.escape(str(copy))}: no such folder") as refused:
+        history.save(tmp_path / "other")
+    assert refused.value.path == str(copy)
+    assert not (tmp_path / "other").exists()
 
 
 def test_what_is_no_run_is_refused(tmp_path: Path) -> None:

@@ -50,7 +50,7 @@ print(fretting.run(small, threads=2).shape)
 
 @pytest.mark.skipif(sys.platform != "linux", reason="limits on the address space are Linux's")
 def test_too_little_memory_is_an_error_and_the_interpreter_lives_on() -> None:
-    answer = subprocess.run([sys.executable, "-c", LIMITED], capture_output=True, text=True, timeout=300, check=False)
+    answer = subprocess.run([sys.executable, "-c", LIMITED], capture_output=True, text=True, timeout=600, check=False)
     assert answer.returncode == 0, answer.stderr
     assert answer.stdout.split("\n")[:-1] == ["refused"] * 5 + ["lacking", "(64, 64)"], answer.stdout
 
@@ -85,7 +85,7 @@ print(fretting.run(case, threads=1).shape)
 @pytest.mark.skipif(sys.platform != "linux", reason="limits on the address space are Linux's")
 def test_threads_without_room_for_them_are_a_lack_of_memory() -> None:
     told = subprocess.run(
-        [sys.executable, "-c", MANY_THREADS], capture_output=True, text=True, timeout=300, check=False
+        [sys.executable, "-c", MANY_THREADS], capture_output=True, text=True, timeout=600, check=False
     )
     assert told.returncode == 0, told.stderr
     assert told.stdout.split("\n")[:-1] == ["refused", "refused", "(16, 16)"], told.stdout

@@ -125,7 +125,7 @@ def test_without_matplotlib_the_error_says_what_to_install() -> None:
         "try: fretting.plot._own_axes(None)\n"
         "except ImportError as error: print(error)"
     )
-    said = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True)
+    said = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=600, check=True)
     assert said.stdout == "figures need matplotlib: pip install 'fretting[plot]'\n"
 
 

@@ -3,6 +3,7 @@ there.
 """
 
 import json
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -152,6 +153,39 @@ def test_a_study_sees_the_known_orders(sphere_case: dict[str, Any]) -> None:
     assert "Choose for 1 %" in study.attrs["choice"]
     with pytest.raises(ValueError, match="cells"):
         fretting.study(sphere_case, cells=[2, 32])
+
+
+def test_a_study_without_any_error_says_why(sphere_case: dict[str, Any]) -> None:
+    pytest.importorskip("xarray")
+    sphere_case["lower"]["coatings"] = [{"thickness": 2e-5, "young": 400e9, "poisson": 0.2}]
+    with pytest.warns(fretting.FrettingWarning, match=r"no closed form .* give more levels, as in cells=\[32"):
+        study = fretting.study(sphere_case, cells=[16])
+    assert study.sizes["level"] == 0
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", fretting.FrettingWarning)
+        assert fretting.study(sphere_case, cells=[8, 16]).sizes["level"] == 2
+
+
+def test_a_reference_that_is_no_file_is_refused_by_its_name(sphere_case: dict[str, Any], tmp_path: Path) -> None:
+    pytest.importorskip("xarray")
+    for name in (tmp_path / "nofile", str(tmp_path / "nofile")):
+        with pytest.raises(fretting.MissingFileError, match="nofile: no such file"):
+            fretting.study(sphere_case, cells=[16], against=name)
+    with pytest.raises(fretting.UnreadableError, match="a folder, not a file"):
+        fretting.study(sphere_case, cells=[16], against=tmp_path)
+    with pytest.raises(TypeError, match=r"^against: expected a path, found int"):
+        fretting.study(sphere_case, cells=[16], against=3)  # type: ignore[arg-type]
+
+
+def test_yes_and_no_are_no_other_words(sphere_case: dict[str, Any], tmp_path: Path) -> None:
+    for name in ("estimate_error", "resume", "replace"):
+        for value in ("no", None, np.zeros(2)):
+            odd: dict[str, Any] = {name: value}
+            with pytest.raises(TypeError, match=f"^{name} = .*: must be True or False"):
+                fretting.run(sphere_case, folder=tmp_path / "run", **odd)
+    pytest.importorskip("xarray")
+    with pytest.raises(TypeError, match=r"^progress = 3: must be True or False"):
+        fretting.study(sphere_case, cells=[16], progress=3)  # type: ignore[arg-type]
 
 
 def test_increments_are_found_by_what_happens_there(case: dict[str, Any]) -> None:

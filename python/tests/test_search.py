@@ -125,7 +125,7 @@ def found(site: Path) -> dict[str, list[str]]:
         str(site),
         *QUERIES,
     ]
-    told = subprocess.run(call, capture_output=True, text=True, check=True, timeout=120).stdout
+    told = subprocess.run(call, capture_output=True, text=True, check=True, timeout=600).stdout
     answer: dict[str, list[str]] = json.loads(told)
     return answer
 

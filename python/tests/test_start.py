@@ -188,5 +188,5 @@ def test_what_was_solved_before_ctrl_c_is_in_the_exception() -> None:
         assert process.stdout is not None
         assert process.stdout.readline() == "running\n"
         process.send_signal(signal.SIGINT)
-        said, errors = process.communicate(timeout=60)
+        said, errors = process.communicate(timeout=600)
         assert (said, process.returncode) == ("True\n", 0), errors

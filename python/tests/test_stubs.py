@@ -13,7 +13,7 @@ def test_stubs_match_the_compiled_module(tmp_path: Path) -> None:
         [sys.executable, "-m", "mypy.stubtest", "fretting._core", "--concise"],
         capture_output=True,
         text=True,
-        timeout=300,
+        timeout=600,
         check=False,
         cwd=tmp_path,  # the installed package is judged, not the sources
     )
@@ -23,6 +23,6 @@ def test_stubs_match_the_compiled_module(tmp_path: Path) -> None:
 def test_types_hold(root: Path) -> None:
     pytest.importorskip("mypy")
     done = subprocess.run(
-        [sys.executable, "-m", "mypy"], capture_output=True, text=True, timeout=300, check=False, cwd=root
+        [sys.executable, "-m", "mypy"], capture_output=True, text=True, timeout=600, check=False, cwd=root
     )
     assert done.returncode == 0, done.stdout + done.stderr

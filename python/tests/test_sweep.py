@@ -102,7 +102,7 @@ def test_a_sweep_in_forked_processes_after_a_solve_of_the_parent() -> None:
     """Worker threads do not survive a fork: a child that waited for them would hang."""
     done = subprocess.run(
         [sys.executable, "-W", "ignore::DeprecationWarning", "-c", FORKED],
-        capture_output=True, text=True, timeout=120, check=False,
+        capture_output=True, text=True, timeout=600, check=False,
     )  # fmt: skip
     assert (done.returncode, done.stdout) == (0, "done\n"), done.stderr
 
@@ -139,7 +139,7 @@ def test_a_sweep_on_mpi(case: dict[str, Any], alone: np.ndarray[Any, Any], tmp_p
     script.write_text(MPI.format(case=case, axes=AXES))
     done = subprocess.run(
         [launcher, "-n", "3", sys.executable, "-m", "mpi4py.futures", script],
-        capture_output=True, text=True, timeout=120, check=False,
+        capture_output=True, text=True, timeout=600, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert json.loads(done.stdout) == alone.tolist()
@@ -182,6 +182,9 @@ def test_a_sweep_of_refused_points_only_is_refused(case: dict[str, Any]) -> None
         ([{FRICTION: 0.1}, {FORCE: 0.1}], "point 1 has the keys"),
         ({"approach": fretting.Parameter([1e-6], lambda case, value: None)}, "a variable of the result has this name"),
         ("friction", "expected a mapping or a list of mappings, found str"),
+        ({"load[7].normal_force": [1.0]}, "load has 2 entries, from 0; there is no 7"),
+        ({"": [1.0]}, "unknown key ``"),
+        ({"load[0]..normal_force": [1.0]}, "unknown key ``"),
     ],
 )
 def test_mistaken_axes_are_refused_before_any_work(case: dict[str, Any], axes: Any, message: str) -> None:
@@ -321,6 +324,41 @@ def test_a_parameter_has_a_short_name(case: dict[str, Any]) -> None:
     assert answer["approach"].dims == ("mu",)
     by_key = fretting.sweep(case, {FRICTION: [0.2, 0.4]})
     np.testing.assert_array_equal(answer["dissipated_energy"].values, by_key["dissipated_energy"].values)
+
+
+def test_keys_are_read_as_the_program_prints_them(case: dict[str, Any]) -> None:
+    case["lower"] = {"coatings": [{"thickness": 1e-5, "young": 300e9, "poisson": 0.0}], **case["lower"]}
+    case["units"] = {"length": "m", "force": "N"}
+    keys = "lower.coatings[0].young", "load[1].tangential_force[0]"
+    printed = fretting.sweep(case, {keys[0]: [250e9, 350e9], keys[1]: [1.0, 2.0]})
+    dotted = fretting.sweep(case, {"lower.coatings.0.young": [250e9, 350e9], FORCE: [1.0, 2.0]})
+    np.testing.assert_array_equal(printed["dissipated_energy"].values, dotted["dissipated_energy"].values)
+    assert printed["dissipated_energy"].dims == keys
+    assert [printed[key].attrs["units"] for key in keys] == ["Pa", "N"]
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        (3, "must return a mapping from names to numbers, .* it returned int"),
+        (None, "it returned NoneType"),
+        ("peak", "it returned str"),
+        ({1: 2.0}, "a name is a str, and 1 is int"),
+    ],
+)
+def test_what_measure_must_return_is_said(case: dict[str, Any], given: Any, words: str) -> None:
+    with pytest.raises(TypeError, match=f"^measure: .*{words}"):
+        fretting.sweep(case, {FRICTION: [0.2]}, measure=lambda history: given)
+
+
+def test_arguments_of_another_kind_are_refused_by_their_names(case: dict[str, Any]) -> None:
+    for name in ("executor", "measure", "keep", "indices", "progress", "threads"):
+        for value in ("x", 3.5, np.zeros((2, 2))):
+            odd: dict[str, Any] = {name: value}
+            with pytest.raises((TypeError, ValueError), match=name):
+                fretting.sweep(case, {FRICTION: [0.2]}, **odd)
+    with pytest.raises(TypeError, match="apply: expected a key of the case or a function, found int"):
+        fretting.Parameter([0.2], 3)  # type: ignore[arg-type]
 
 
 def test_a_mistake_in_what_is_measured_ends_the_sweep_at_its_first_point(case: dict[str, Any]) -> None:

@@ -1,5 +1,7 @@
 """Sweeps with distributions, against closed forms."""
 
+import re
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
@@ -139,10 +141,40 @@ def test_mistakes_are_told() -> None:
         fretting.sweep(hertz_case(), uncertain)
     with pytest.raises(ValueError, match="no parameter has a distribution"):
         fretting.sweep(hertz_case(), {"load.press.normal_force": [1.0]}, samples=4)
-    with pytest.raises(ValueError, match="deviation must be positive"):
-        fretting.sweep(hertz_case(), {"load.press.normal_force": fretting.Normal(10.0, -1.0)}, samples=4)
     with pytest.raises(ValueError, match="between 2 and"):
         fretting.sweep(hertz_case(), uncertain, samples=1)
     grid = fretting.sweep(hertz_case(), {"load.press.normal_force": [5.0, 10.0]})
     with pytest.raises(ValueError, match="no samples"):
         fretting.uncertainty(grid)
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: fretting.Normal(float("nan"), 1.0), "mean = nan: must be finite"),
+        (lambda: fretting.Normal(1.0, 0.0), "deviation = 0.0: must be positive"),
+        (lambda: fretting.Lognormal(-1.0, 0.1), "mean = -1.0: must be positive"),
+        (lambda: fretting.Lognormal(1.0, -0.1), "deviation = -0.1: must be positive"),
+        (lambda: fretting.Uniform(0.3, 0.2), "low = 0.3, high = 0.2: low must lie below high"),
+        (lambda: fretting.Uniform(0.3, float("inf")), "high = inf: must be finite"),
+        (lambda: fretting.Triangular(0.1, 0.4, 0.3), "low = 0.1, mode = 0.4, high = 0.3: low must lie below high"),
+        (lambda: fretting.Triangular(0.1, 0.1, 0.1), "low = 0.1, mode = 0.1, high = 0.1: low must lie below high"),
+        (lambda: fretting.Weibull(0.0, 1.0), "shape = 0.0: must be positive"),
+        (lambda: fretting.Weibull(2.0, -1.0), "scale = -1.0: must be positive"),
+    ],
+)
+def test_a_distribution_is_refused_where_it_is_made_by_the_name_of_its_argument(
+    make: Callable[[], fretting.Distribution], words: str
+) -> None:
+    with pytest.raises(ValueError, match=f"^{re.escape(words)}"):
+        make()
+
+
+def test_what_is_no_distribution_is_refused() -> None:
+    with pytest.raises(TypeError, match=r"^deviation = 'x': must be a real number"):
+        fretting.Normal(1.0, "x")  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match=r"^Distribution: the base of .* Uniform, Normal"):
+        fretting.Distribution()
+    # What may be, stays: whole numbers are numbers, the likeliest value may be the least one.
+    assert isinstance(fretting.Normal(1, 1).mean, float)
+    assert fretting.Triangular(0.0, 0.0, 1.0).mode == 0.0

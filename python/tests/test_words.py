@@ -127,7 +127,7 @@ COMMANDS = ["", "run", "check", "plan", "schema", "report", "export", "study", "
 @pytest.mark.parametrize("command", COMMANDS)
 def test_help_texts(command: str) -> None:
     call = [sys.executable, "-m", "fretting", *command.split(), "--help"]
-    told = subprocess.run(call, capture_output=True, text=True, check=True, timeout=60).stdout
+    told = subprocess.run(call, capture_output=True, text=True, check=True, timeout=600).stdout
     assert found(re.sub(r"--leave-out", "", told)) == []
 
 

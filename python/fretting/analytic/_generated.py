@@ -7,12 +7,12 @@ from dataclasses import dataclass, field
 
 import numpy.typing as npt
 
-from fretting import _core
 from fretting._arguments import checked
 from fretting._arrays import Reals
 from fretting.analytic._solution import (
     Layer,
     Material,
+    Solution,
     layer_numbers,
     material_numbers,
     numbers_of,
@@ -121,7 +121,7 @@ class Hertz:
     """Pressure p0 in the middle [pressure]."""
     approach: float
     """Approach δ of distant points [length]."""
-    _solution: _core.Solution = field(repr=False, compare=False)
+    _solution: Solution = field(repr=False, compare=False)
 
     def pressure(self, r: npt.ArrayLike) -> Reals:
         """Pressure at distance `r` from the middle [pressure]; zero outside the contact.
@@ -167,7 +167,7 @@ class HertzEllipse:
     """Pressure p0 in the middle [pressure]."""
     approach: float
     """Approach δ of distant points [length]."""
-    _solution: _core.Solution = field(repr=False, compare=False)
+    _solution: Solution = field(repr=False, compare=False)
 
     def pressure(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Reals:
         """Pressure at a point [pressure]; zero outside the contact.
@@ -217,7 +217,7 @@ class HertzLine:
     """Half-width a of the contact [length]."""
     max_pressure: float
     """Pressure p0 in the middle [pressure]."""
-    _solution: _core.Solution = field(repr=False, compare=False)
+    _solution: Solution = field(repr=False, compare=False)
 
     def pressure(self, x: npt.ArrayLike) -> Reals:
         """Pressure at `x` from the middle [pressure]; zero outside the contact.
@@ -261,7 +261,7 @@ class FlatPunch:
     """Radius a of the punch and of the contact [length]."""
     approach: float
     """Approach δ [length]."""
-    _solution: _core.Solution = field(repr=False, compare=False)
+    _solution: Solution = field(repr=False, compare=False)
 
     def pressure(self, r: npt.ArrayLike) -> Reals:
         """Pressure at distance `r` from the middle [pressure]; infinite at the edge, zero outside.
@@ -304,7 +304,7 @@ class RoundedPunch:
     """Radius a of the contact [length]."""
     approach: float
     """Approach [length]."""
-    _solution: _core.Solution = field(repr=False, compare=False)
+    _solution: Solution = field(repr=False, compare=False)
 
     def pressure(self, r: npt.ArrayLike) -> Reals:
         """Pressure at distance `r` from the middle [pressure]; zero outside the contact.
@@ -354,7 +354,7 @@ class TiltedPunch:
     """Radius a of the punch and of the contact [length]."""
     modulus: float
     """Effective modulus E* [pressure]."""
-    _solution: _core.Solution = field(repr=False, compare=False)
+    _solution: Solution = field(repr=False, compare=False)
 
     def pressure(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Reals:
         """Pressure at a point [pressure]; infinite at the edge, zero outside.
@@ -405,7 +405,7 @@ class TiltedLinePunch:
     """Half-width a of the punch and of the contact [length]."""
     modulus: float
     """Effective modulus E* [pressure]."""
-    _solution: _core.Solution = field(repr=False, compare=False)
+    _solution: Solution = field(repr=False, compare=False)
 
     def pressure(self, x: npt.ArrayLike) -> Reals:
         """Pressure at `x` from the middle [pressure]; infinite at the edge, zero outside.
@@ -452,7 +452,7 @@ class Cone:
     """Approach δ [length]."""
     mean_pressure: float
     """Mean pressure `E*t/2` [pressure], whatever the load."""
-    _solution: _core.Solution = field(repr=False, compare=False)
+    _solution: Solution = field(repr=False, compare=False)
 
     def pressure(self, r: npt.ArrayLike) -> Reals:
         """Pressure at distance `r` from the tip [pressure]; infinite (logarithm) at the tip, zero outside the contact.
@@ -497,7 +497,7 @@ class Westergaard:
     """Mean pressure p* at which the contact becomes full [pressure]."""
     half_width: float
     """Half-width a of the contact at a crest [length]; L/2 in full contact."""
-    _solution: _core.Solution = field(repr=False, compare=False)
+    _solution: Solution = field(repr=False, compare=False)
 
     def pressure(self, x: npt.ArrayLike) -> Reals:
         """Pressure at `x` from a crest [pressure]; zero where the surfaces are apart.
@@ -547,7 +547,7 @@ class ThinLayer:
     """Approach δ [length]."""
     incompressible: bool
     """Whether the layer keeps its volume."""
-    _solution: _core.Solution = field(repr=False, compare=False)
+    _solution: Solution = field(repr=False, compare=False)
 
     def pressure(self, r: npt.ArrayLike) -> Reals:
         """Pressure at distance `r` from the middle [pressure]; zero outside the contact.
@@ -645,7 +645,7 @@ class CattaneoMindlin:
 
     `3(μP)²/(80aG*) · (1 − c/a)³ (1 + 3c/a + c²/a²)`: a quarter of the loss in a cycle of this amplitude.
     """
-    _solution: _core.Solution = field(repr=False, compare=False)
+    _solution: Solution = field(repr=False, compare=False)
 
     def shear(self, r: npt.ArrayLike) -> Reals:
         """Shear at distance `r` from the middle [pressure], along the force; zero outside the contact.
@@ -720,7 +720,7 @@ class Torsion:
     """Radius a of the contact [length]."""
     max_shear: float
     """Largest shear that friction holds anywhere, μp0 [pressure]."""
-    _solution: _core.Solution = field(repr=False, compare=False)
+    _solution: Solution = field(repr=False, compare=False)
 
     def shear(self, r: npt.ArrayLike) -> Reals:
         """Circumferential shear at distance `r` from the middle [pressure], with the sign of M; zero outside the
@@ -784,7 +784,7 @@ class StretchedSphere:
     """Radius c of the disc that sticks [length]."""
     stick_offset: float
     """Middle e of that disc along x [length]."""
-    _solution: _core.Solution = field(repr=False, compare=False)
+    _solution: Solution = field(repr=False, compare=False)
 
     def shear(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Reals:
         """Shear along x at a point [pressure], with the sign of the force; zero outside the contact.
@@ -897,7 +897,7 @@ class CattaneoLine:
     """Half-width c of what sticks [length]."""
     stick_offset: float
     """Middle e of what sticks [length]."""
-    _solution: _core.Solution = field(repr=False, compare=False)
+    _solution: Solution = field(repr=False, compare=False)
 
     def shear(self, x: npt.ArrayLike) -> Reals:
         """Shear at `x` from the middle [pressure], with the sign of the force; zero outside the contact.
@@ -998,7 +998,7 @@ class SlidingCylinder:
     """Middle of the contact from the cylinder's axis [length], with the shear on the lower body along +x."""
     max_pressure: float
     """Largest pressure [pressure]."""
-    _solution: _core.Solution = field(repr=False, compare=False)
+    _solution: Solution = field(repr=False, compare=False)
 
     def pressure(self, x: npt.ArrayLike) -> Reals:
         """Pressure at `x` from the middle of the contact [pressure]; zero outside.

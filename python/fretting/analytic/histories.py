@@ -1,6 +1,7 @@
 """Contacts whose tangential force goes to and fro: the fretting loop of a sphere, histories of spheres and lines."""
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -9,7 +10,7 @@ from fretting import _core
 from fretting._arguments import checked
 from fretting._arrays import Reals
 from fretting.analytic._generated import CattaneoMindlin, Hertz, HertzLine
-from fretting.analytic._solution import Branch, forces_of, numbers_of, of_each, values_of
+from fretting.analytic._solution import Branch, Solution, equal, forces_of, numbers_of, of_each, values_of
 
 
 @dataclass(frozen=True)
@@ -22,7 +23,7 @@ class LoopPoint:
     """Relative tangential displacement of the bodies [length]."""
     stick_radius: float
     """Radius of the disc that has not slipped since the last turning point [length]."""
-    _solution: _core.Solution = field(repr=False, compare=False)
+    _solution: Solution = field(repr=False, compare=False)
 
     def shear(self, r: npt.ArrayLike) -> Reals:
         """Shear at distances `r` from the middle [pressure], along the force; zero outside the contact."""
@@ -57,7 +58,8 @@ class MindlinDeresiewicz:
         ValueError
             When the loop does not reach the force.
         """
-        solution = _core.mindlin_deresiewicz_at(
+        solution = Solution(
+            _core.mindlin_deresiewicz_at,
             _numbers(self.sphere),
             self.friction_coefficient,
             self.shear_modulus,
@@ -91,7 +93,8 @@ def mindlin_deresiewicz(
     ----------
     Mindlin & Deresiewicz (1953); Johnson (1985), *Contact Mechanics*, section 7.4.
     """
-    fretting_loop, peak = _core.mindlin_deresiewicz(_numbers(sphere), friction_coefficient, shear_modulus, amplitude)
+    given = _numbers(sphere), friction_coefficient, shear_modulus, amplitude
+    fretting_loop, peak = _core.mindlin_deresiewicz(*given)[0], Solution(_peak, *given)
     return MindlinDeresiewicz(
         sphere=sphere,
         friction_coefficient=friction_coefficient,
@@ -114,7 +117,11 @@ class TangentialHistory:
     """Radius of the disc that has not slipped since the force last turned, at each force [length]."""
     dissipated_energy: Reals
     """Energy dissipated by friction since the start, at each force [force x length]."""
-    _solution: _core.Solution = field(repr=False, compare=False)
+    _solution: Solution = field(repr=False, compare=False)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether the other has the same numbers."""
+        return equal(self, other)
 
     def shear(self, r: npt.ArrayLike) -> Reals:
         """Shear at the last force at distances `r` from the middle [pressure], along the force; zero outside."""
@@ -155,8 +162,8 @@ def tangential_history(
     >>> bool(history.shift[2] == history.shift[0])
     True
     """
-    solution = _core.tangential_history(
-        _numbers(sphere), friction_coefficient, shear_modulus, forces_of(tangential_forces)
+    solution = Solution(
+        _core.tangential_history, _numbers(sphere), friction_coefficient, shear_modulus, forces_of(tangential_forces)
     )
     return TangentialHistory(**of_each(numbers_of(solution)), _solution=solution)
 
@@ -173,7 +180,11 @@ class LineHistory:
     """Half-width of what has not slipped since the force last turned, at each force [length]."""
     dissipated_energy: Reals
     """Energy dissipated by friction per length since the start, at each force [force]."""
-    _solution: _core.Solution = field(repr=False, compare=False)
+    _solution: Solution = field(repr=False, compare=False)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether the other has the same numbers."""
+        return equal(self, other)
 
     def shear(self, x: npt.ArrayLike) -> Reals:
         """Shear at the last force at `x` from the middle [pressure], along the force; zero outside the contact."""
@@ -222,7 +233,8 @@ def line_history(
     of_bodies = 0.0 if shear_compliance is None else float(shear_compliance)
     compliance = of_bodies if along_axis else 2 / cylinder.modulus
     at_datum = 0.0 if along_axis else -of_bodies / (2 * np.pi)
-    solution = _core.line_history(
+    solution = Solution(
+        _core.line_history,
         (cylinder.radius, cylinder.line_force, cylinder.modulus),
         friction_coefficient,
         compliance,
@@ -230,6 +242,11 @@ def line_history(
         None if datum is None else (float(datum), at_datum),
     )
     return LineHistory(**of_each(numbers_of(solution)), _solution=solution)
+
+
+def _peak(*given: Any) -> _core.Solution:
+    """Return the contact at the first peak of a loop."""
+    return _core.mindlin_deresiewicz(*given)[1]
 
 
 def _numbers(sphere: Hertz) -> tuple[float, float, float]:
