@@ -29,7 +29,7 @@ pub(super) fn declared_units(judge: &mut Judge, file: &UnitsFile) -> Option<Unit
             };
             return judge.refuse(given.span(), format!("units.{name} = {unit:?}: {why}"), &help);
         }
-        if is_of_another(unit, name) {
+        if is_word && is_of_another(unit, name) {
             let why = format!("units.{name} = {unit:?}: a unit of another quantity");
             return judge.refuse(given.span(), why, &format!("for example {name} = \"{base}\""));
         }
@@ -78,7 +78,7 @@ mod tests {
             refused(BALL, &[("[grid]", &text)], "a unit of another quantity", &place);
         }
         let mistaken = [("[grid]", "[units]\nlength = \"mm\"\nforce = \"mm\"\n[grid]")];
-        refused(BALL, &mistaken, "units.force = \"mm\": a unit of another quantity", "\"mm\"\n[grid]");
+        refused(BALL, &mistaken, "units.force = \"mm\": a unit of another quantity", "\"mm\"");
         assert_eq!(read(BALL, &[]).units, None);
     }
 }
