@@ -92,21 +92,17 @@ impl HeatRecord {
     /// The answer line by line; `figure` prints a number of a kind of quantity.
     pub fn lines(&self, figure: impl Fn(f64, &str) -> String) -> Vec<Line> {
         let mut lines = Vec::new();
-        let mut line = |name: &str, value: String, of: String| lines.push([name.to_owned(), value, of]);
         if let Some(rise) = &self.temperature {
             let AtPlace { value, x, y } = rise.max_rise;
-            let place = [x, y].map(|place| figure(place, "length"));
+            let [x, y] = [x, y].map(|place| figure(place, "length"));
             let plain = |value: f64| figure(value, "");
-            line("friction power", plain(rise.power), String::new());
-            let largest = format!("{} at x {}, y {}", plain(value), place[0], place[1]);
-            line("max temperature rise", largest, String::new());
-            line(
-                "mean temperature rise",
-                format!("{} where heat is made", plain(rise.mean_rise)),
-                String::new(),
-            );
-            let fraction = rise.lower_fraction.map_or("-".to_owned(), plain);
-            line("heat into the lower body", fraction, String::new());
+            let told = [
+                ("friction power", plain(rise.power)),
+                ("max temperature rise", format!("{} at x {x}, y {y}", plain(value))),
+                ("mean temperature rise", format!("{} where heat is made", plain(rise.mean_rise))),
+                ("heat into the lower body", rise.lower_fraction.map_or("-".to_owned(), plain)),
+            ];
+            lines.extend(told.map(|(name, value)| [name.to_owned(), value, String::new()]));
         }
         for of in &self.resistance {
             for (name, found) in [("thermal", of.thermal), ("electrical", of.electrical)] {
@@ -115,7 +111,8 @@ impl HeatRecord {
                     Resistance::Found(value) => figure(value, ""),
                     Resistance::Apart => "none: the bodies are apart".to_owned(),
                 };
-                line(&format!("{name} contact resistance"), value, format!("increment {}", of.increment));
+                let of = format!("increment {}", of.increment);
+                lines.push([format!("{name} contact resistance"), value, of]);
             }
         }
         lines

@@ -3,6 +3,7 @@
 use fret_core::identify::Constant;
 use serde_json::{Value, json};
 
+use crate::figures::figure;
 use crate::report::number;
 
 /// For programs.
@@ -21,4 +22,14 @@ pub fn cells(constant: &Constant) -> [String; 4] {
     let [low, high] = constant.interval;
     let [value, low, high] = [constant.value, low, high].map(|value| cell(constant, value));
     [constant.name.clone(), value, low, high]
+}
+
+/// A line for a person, its `value` with the unit; `what` does not tell it where it is not told.
+pub fn line(constant: &Constant, value: &str, (width, what, more): (usize, &str, &str)) -> String {
+    let name = &constant.name;
+    if !constant.told {
+        return format!("  {name:<width$} not told by this {what}");
+    }
+    let [low, high] = constant.interval.map(figure);
+    format!("  {name:<width$} {value}   95 %: {low} .. {high}{more}")
 }

@@ -4,7 +4,7 @@ use fret_core::identify::{self, Constant, Indentation, IndentationRequest, Numbe
 use maud::{Markup, html};
 use serde_json::{Value, json};
 
-use super::constant::{cell, cells, of_constant};
+use super::constant::{cell, cells, line, of_constant};
 use super::identified::Identified;
 use super::keys::{case_with, value_of};
 use super::record::rows_in_words;
@@ -100,18 +100,11 @@ fn text(found: &Indentation) -> String {
     lines.extend(rows_in_words(&found.bad_rows).map(|words| format!("  skipped: {words}")));
     let width = found.constants.iter().map(|constant| constant.name.len()).max().unwrap_or(0).max(22);
     for (k, constant) in found.constants.iter().enumerate() {
-        let name = &constant.name;
-        if !constant.told {
-            lines.push(format!("  {name:<width$} not told by this curve"));
-            continue;
-        }
-        let [low, high] = constant.interval.map(figure);
-        let (value, unit) = (figure(constant.value), found.units.of(constant.unit));
-        let value = format!("{value} {unit}");
+        let value = format!("{} {}", figure(constant.value), found.units.of(constant.unit));
         let grid = found.grid.as_ref().map_or_else(String::new, |grid| {
             format!("   on half of the cells: {}", figure(constant.value + grid[k]))
         });
-        lines.push(format!("  {name:<width$} {}   95 %: {low} .. {high}{grid}", value.trim_end()));
+        lines.push(line(constant, value.trim_end(), (width, "curve", &grid)));
     }
     lines.push(format!("  {:<width$} {:.2} % of the largest", "load off the curve", 100.0 * found.noise));
     lines.extend(found.notes.iter().map(|note| format!("  note: {note}")));

@@ -2,6 +2,7 @@
 
 use fret_core::identify::{Identification, Quantities};
 
+use super::constant::line;
 use super::over_cycles::in_words;
 use super::record::rows_in_words;
 use super::repeated;
@@ -41,14 +42,8 @@ pub fn summary(found: &Identification) -> String {
         lines.push(format!("  skipped: {words}"));
     }
     for constant in &found.constants {
-        let name = &constant.name;
-        let [low, high] = constant.interval.map(figure);
-        if constant.told {
-            let (value, unit) = (figure(constant.value), found.units.of(constant.unit));
-            lines.push(format!("  {name:<22} {value} {unit}   95 %: {low} .. {high}"));
-        } else {
-            lines.push(format!("  {name:<22} not told by this loop"));
-        }
+        let value = format!("{} {}", figure(constant.value), found.units.of(constant.unit));
+        lines.push(line(constant, &value, (22, "loop", "")));
     }
     for (words, unit, of) in TOLD {
         if let Some(value) = fitted.quantities.as_ref().and_then(of) {

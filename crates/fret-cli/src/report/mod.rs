@@ -2,7 +2,7 @@
 //! tells the browser to refuse both.
 //!
 //! From the ground: `html` (numbers and parts), `measured` (numbers with their units), `rolled` (how far it rolled), `overview` (the run as a whole, and the closed forms that speak about it), `window` (what of
-//! the grid is shown), `chapters` (what the page tells), and the page itself here; `sweep` and `study` are pages of their own.
+//! the grid is shown), `section` (the line through it), `chapters` (what the page tells), and the page itself here; `sweep` and `study` are pages of their own.
 
 mod answers;
 mod chapters;
@@ -11,6 +11,7 @@ mod literature;
 mod measured;
 mod overview;
 mod rolled;
+mod section;
 pub mod study;
 pub mod sweep;
 mod window;
@@ -26,8 +27,9 @@ pub use html::{chapter, deviation, given, grid, number, pairs, short, side_by_si
 pub use measured::Measured;
 pub use overview::{Overview, friction_in, joined};
 pub use rolled::Rolled;
+pub use section::Section;
 pub use sweep::called;
-pub use window::{Part, Section, Window};
+pub use window::{Part, Window};
 
 /// The style of the page.
 const STYLE: &str = include_str!("page.css");

@@ -102,6 +102,12 @@ impl Summary<'_> {
         }
         table.push('\n');
         self.cycles(&mut table);
+        let line = |name: &str, value: &str| {
+            format!(
+                "{name:<NAMES$}{value}
+"
+            )
+        };
         if let Some(worn) = &self.ended.tally.worn_through {
             let [x, y] = worn.place.map(|place| self.length(place));
             let after = counted(worn.cycles, "cycle");
@@ -109,18 +115,15 @@ impl Summary<'_> {
                 WornTo::Coating => "coating worn through",
                 WornTo::Limit => "worn to the limit",
             };
-            let _ = writeln!(
-                table,
-                "{what:<NAMES$}after {after} of {}, at ({x}, {y})",
-                self.stage_name(worn.stage)
-            );
+            let stage = self.stage_name(worn.stage);
+            table += &line(what, &format!("after {after} of {stage}, at ({x}, {y})"));
         }
         let volume =
             |value: f64| figure(value) + &Units::after(self.plan.case.units.as_ref(), "length^3", dimension);
         for (name, volumes) in
             self.ended.tally.worn_by_layer.iter().flat_map(|worn| volumes_by_layer(worn, volume))
         {
-            let _ = writeln!(table, "{name:<NAMES$}{volumes}");
+            table += &line(&name, &volumes);
         }
         if let Some(estimate) = &self.ended.estimate {
             let _ = writeln!(table, "{}\n", estimate.table());
@@ -128,15 +131,10 @@ impl Summary<'_> {
         let residual =
             format!("{:.1e} (tolerance {:.1e})", self.ended.tally.largest_residual, self.plan.case.tolerance);
         if let Some(datum) = self.plan.datum {
-            let _ = writeln!(
-                table,
-                "{:<NAMES$}{} below the load",
-                "approach, shift relative to",
-                self.length(datum)
-            );
+            table += &line("approach, shift relative to", &format!("{} below the load", self.length(datum)));
         }
         if pressure_is_unbounded(&self.plan.case, self.plan.grid.cells()) {
-            let _ = writeln!(table, "{:<NAMES$}none: {GROWS}", "limit of max pressure");
+            table += &line("limit of max pressure", &format!("none: {GROWS}"));
         }
         for (name, value) in [
             ("increments", self.ended.tally.solved.to_string()),
@@ -145,7 +143,7 @@ impl Summary<'_> {
             ("wall time", format!("{} on {}", duration(self.ended.wall_s), counted(self.threads, "thread"))),
             ("results", self.folder.display().to_string()),
         ] {
-            let _ = writeln!(table, "{name:<NAMES$}{value}");
+            table += &line(name, &value);
         }
         for warning in &self.ended.warnings {
             let _ = writeln!(table, "{}", warning_line(warning));

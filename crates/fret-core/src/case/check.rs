@@ -3,6 +3,7 @@
 use super::attachments::Attachments;
 use super::beyond::beyond;
 use super::bodies::bodies;
+use super::bulk_and_tilt::bulk_and_tilt;
 use super::conduction::conduction;
 use super::declared_units::declared_units;
 use super::definition::{Case, Origin};
@@ -24,7 +25,6 @@ use super::rolling::rolling;
 use super::shape::profile;
 use super::stages::{sliding, stages};
 use super::stress::stress;
-use super::substrates::bulk_and_tilt;
 use super::wearing::wear;
 use crate::document::{At, Mistake, Places};
 use crate::model::stage::Stage;

@@ -71,22 +71,20 @@ pub(super) fn sliding_coatings(judge: &mut Judge, known: &Known<'_>) {
         let stretched = known.stages.is_some_and(|stages| {
             stages.iter().any(|stage| stage.bulk_stress[body].iter().any(Option::is_some))
         });
-        if !frictionless {
-            judge.refuse::<()>(
-                span.clone(),
+        judge.refuse_given([
+            (
+                (!frictionless).then(|| span.clone()),
                 format!(
                     "{place}: no shear passes, so nothing holds the coating against friction on its surface"
                 ),
                 "friction.coefficient = 0.0, or interface = { shear_stiffness = ... }",
-            );
-        }
-        if stretched {
-            judge.refuse::<()>(
-                span,
+            ),
+            (
+                stretched.then_some(span),
                 format!("{place}: no shear passes, so the coating is not stretched with its substrate"),
                 "no bulk stress of this body, or interface = { shear_stiffness = ... }",
-            );
-        }
+            ),
+        ]);
     }
 }
 

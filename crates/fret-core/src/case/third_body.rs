@@ -13,15 +13,10 @@ pub(super) fn third_body(
     layers: Option<&WearLayers>,
 ) -> (Option<DebrisRule>, Option<RimRule>) {
     let tables = [(file.debris.as_ref().map(At::span), "debris"), (file.rim.as_ref().map(At::span), "rim")];
-    for (span, table) in tables.into_iter().filter(|_| repeats) {
-        if let Some(span) = span {
-            judge.refuse::<()>(
-                span,
-                format!("wear.{table} in a periodic case: a contact that repeats has no rim"),
-                "grid.periodic = false",
-            );
-        }
-    }
+    judge.refuse_given(tables.map(|(span, table)| {
+        let message = format!("wear.{table} in a periodic case: a contact that repeats has no rim");
+        (span.filter(|_| repeats), message, "grid.periodic = false")
+    }));
     let debris = file.debris.as_ref().map(|given| DebrisRule {
         fraction: given.value.fraction,
         outflow_length: given.value.outflow_length,
