@@ -156,21 +156,20 @@ fn forty_two_stiff_wavy_films_are_pressed_flat_and_certified() {
 }
 
 /// A steel sphere of 5 mm on a film of 5 um and a polymer: where the film holds, contact is pressed together along its rim.
-fn stiff_film(cells: usize, ratio: f64) -> Ended {
-    let text = format!(
+fn stiff_film(cells: usize, ratio: f64) -> String {
+    format!(
         "[grid]\ncells = [{cells}, {cells}]\nsize = \"auto\"\n[upper]\nsubstrate = {{ young = 210e9, poisson = 0.3 }}\n[lower]\n\
          coatings = [{{ thickness = 5e-6, young = {:e}, poisson = 0.25 }}]\nsubstrate = {{ young = 0.2e9, poisson = 0.4 }}\n\
          [profile.sphere]\nradius = 5e-3\n[friction]\ncoefficient = 0.3\n\
          [[load]]\nnormal_force = 20.0\nincrements = 8\nramp = \"cubic\"\n",
         0.2e9 * ratio
-    );
-    run_certified(&text, &[]).unwrap_or_else(|error| panic!("{error}"))
+    )
 }
 
 /// With feasible iterates alone its seventh increment was not solved.
 #[test]
 fn a_film_five_thousand_times_stiffer_is_certified() {
-    let ended = stiff_film(96, 5000.0);
+    let ended = run_certified(&stiff_film(96, 5000.0), &[]).unwrap();
     println!("{}", certified("stiff film, 5000 : 1", &ended));
     assert!(ended.run.iter().all(|kept| kept.record.parts == 1));
 }
@@ -179,10 +178,44 @@ fn a_film_five_thousand_times_stiffer_is_certified() {
 #[ignore = "long: 15 s"]
 fn stiff_films_on_fine_grids_are_certified() {
     for (cells, ratio) in [(96, 1000.0), (96, 20000.0), (192, 100.0), (192, 1000.0), (192, 5000.0)] {
-        println!(
-            "{}",
-            certified(&format!("stiff film, {ratio} : 1, {cells} cells"), &stiff_film(cells, ratio))
-        );
+        let ended = run_certified(&stiff_film(cells, ratio), &[]).unwrap();
+        println!("{}", certified(&format!("stiff film, {ratio} : 1, {cells} cells"), &ended));
+    }
+}
+
+/// The dearest increment of a stiff film that is pressed, and pulled through a cycle to three quarters of sliding: its work as operator applications
+/// on the whole grid, of which the region takes about half.
+fn dearest_in_a_cycle(cells: usize, ratio: f64, rule: &str) -> f64 {
+    let solver = format!("[solver]\nintegration = \"{rule}\"\n[[load]]");
+    let text = stiff_film(cells, ratio).replace("[[load]]", &solver)
+        + "[[load]]\ntangential_force = [4.5, 0.0]\ncycles = 1\nincrements = 16\n";
+    let history = run(&text).unwrap_or_else(|error| panic!("{error}"));
+    history.steps.iter().map(|step| step.work.full_grid_convolutions).fold(0.0, f64::max)
+}
+
+/// Long waves are what the way to a solution costs under a stiff film. Where the normal load stays they are found on coarser grids, too, and kept when the
+/// start goes over to finer ones. In the region that is at most 106, 169 and 156 applications (140, 173 and 170 before); on 192 cells 187, 236 and 207
+/// (236, 285 and 208). Bounds are a fifth above: where cells change what they do in another order, the dearest increment takes a tenth more or less.
+#[test]
+fn a_stiff_film_is_pulled_through_a_cycle_in_a_bounded_number_of_applications() {
+    for (ratio, most) in [(100.0, 63.0), (1000.0, 101.0), (5000.0, 94.0)] {
+        for rule in ["second_order", "end_point"] {
+            let dearest = dearest_in_a_cycle(96, ratio, rule);
+            println!("{ratio} : 1, {rule}: {dearest:.1}");
+            assert!(dearest <= most, "{ratio} : 1, {rule}: {dearest}");
+        }
+    }
+}
+
+#[test]
+#[ignore = "long: two minutes"]
+fn stiff_films_on_fine_grids_are_pulled_through_a_cycle_in_a_bounded_number_of_applications() {
+    for (ratio, most) in [(100.0, 112.0), (1000.0, 141.0), (5000.0, 110.0)] {
+        for rule in ["second_order", "end_point"] {
+            let dearest = dearest_in_a_cycle(192, ratio, rule);
+            println!("{ratio} : 1, {rule}: {dearest:.1}");
+            assert!(dearest <= most, "{ratio} : 1, {rule}: {dearest}");
+        }
     }
 }
 

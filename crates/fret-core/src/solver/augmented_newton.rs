@@ -14,6 +14,7 @@ mod linear_step;
 mod point;
 
 use super::contact_problem::{ContactProblem, Solution};
+use super::iterate::Iterate;
 use super::newton;
 use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
@@ -39,40 +40,6 @@ const FALL: f64 = 0.1;
 /// waves, which move all of the contact.
 const FORCING: f64 = 0.03;
 const FORCING_STIFF: f64 = 0.01;
-
-/// Solves the equations from tractions, feasible or not, by iterates that need not be feasible until the quick way, which judges what is found, goes on from
-/// there; `None` where none leads to a solution.
-///
-/// # Errors
-/// When the iteration is stopped.
-pub fn solve(
-    problem: &ContactProblem<'_>,
-    start: &Tractions,
-    (tractions, displacements): (&mut Tractions, &mut Displacements),
-    operators: &mut RegionOperators,
-    settings: &SolverSettings,
-    callback: IterationCallback<'_>,
-) -> Result<Option<Solution>, SolveError> {
-    let mut method = AugmentedNewton::new(problem, start, operators);
-    let mut goal = NEAR.min(NEARER * method.left_over());
-    let enough = ENOUGH * settings.tolerance;
-    loop {
-        let goes_on = method.advance(goal.max(enough), operators, settings, callback)? && goal > enough;
-        if !method.left_over().is_finite() {
-            return Ok(None);
-        }
-        if !method.projected(tractions, displacements, operators) {
-            return Ok(None);
-        }
-        let motion = method.here.motion;
-        match newton::solve_near(problem, motion, tractions, displacements, operators, settings, callback) {
-            Err(SolveError::NotConverged { .. }) if goes_on => {}
-            Err(SolveError::NotConverged { .. }) => return Ok(None),
-            other => return other.map(Some),
-        }
-        goal *= NEARER;
-    }
-}
 
 /// The method on its way.
 pub struct AugmentedNewton<'a> {
@@ -100,6 +67,35 @@ impl<'a> AugmentedNewton<'a> {
         let here = equations.start(tractions, displacements);
         let merit = equations.merit(&here);
         Self { equations, here, merit, forcing: most_forcing(operators), steps: 0, best: merit, stalled: 0 }
+    }
+
+    /// Solves the equations by iterates that need not be feasible until the quick way, which judges what is found, goes on from there; `None` where none
+    /// leads to a solution. Ends with the tractions and displacements at the solution, or at what was reached.
+    ///
+    /// # Errors
+    /// When the iteration is stopped.
+    pub fn solve(
+        mut self,
+        (tractions, displacements): (&mut Tractions, &mut Displacements),
+        operators: &mut RegionOperators,
+        settings: &SolverSettings,
+        callback: IterationCallback<'_>,
+    ) -> Result<Option<Solution>, SolveError> {
+        let mut goal = NEAR.min(NEARER * self.left_over());
+        let enough = ENOUGH * settings.tolerance;
+        loop {
+            let goes_on = self.advance(goal.max(enough), operators, settings, callback)? && goal > enough;
+            if !self.left_over().is_finite() || !self.projected(tractions, displacements, operators) {
+                return Ok(None);
+            }
+            let near = Iterate::new(self.equations.problem, tractions, displacements, operators);
+            match newton::solve_from(near.near_motion(self.here.motion), operators, settings, callback) {
+                Err(SolveError::NotConverged { .. }) if goes_on => {}
+                Err(SolveError::NotConverged { .. }) => return Ok(None),
+                other => return other.map(Some),
+            }
+            goal *= NEARER;
+        }
     }
 
     /// Goes on until the equations leave less than `goal` of the pressure over. False where no step leads there.
@@ -143,7 +139,7 @@ impl<'a> AugmentedNewton<'a> {
     }
 
     /// What the equations leave over, of the pressure.
-    fn left_over(&self) -> f64 {
+    pub fn left_over(&self) -> f64 {
         self.merit / self.here.size()
     }
 

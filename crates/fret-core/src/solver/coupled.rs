@@ -1,6 +1,6 @@
 //! Pressure and shear of one increment together, and what is done where the Newton method does not converge.
 
-use super::augmented_newton;
+use super::augmented_newton::AugmentedNewton;
 use super::contact_problem::{Pressure, Solution};
 use super::increment_problem::{IncrementProblem, Solved};
 use super::laws::projection::project_pressure;
@@ -60,18 +60,23 @@ pub fn solve(
         (&solution, settings.scheme, settings.another_way)
     {
         let mut found = None;
-        if operators.preconditioner.is_stiff() && increment.changes_normal_load() {
-            let from = nested_start(&problem, start.clone(), operators, method, callback)?;
-            found = augmented_newton::solve(&problem, &from, (p, u), operators, settings, callback)?;
+        let (preconditioner, load_stays) = (&operators.preconditioner, !increment.changes_normal_load());
+        if preconditioner.is_stiff()
+            && !(load_stays && preconditioner.is_in_period())
+            && let Some(from) = nested_start((&problem, load_stays), &start, operators, method, callback)?
+        {
+            found = from.solve((p, u), operators, settings, callback)?;
         }
         if found.is_none() {
-            found = augmented_newton::solve(&problem, &start, (p, u), operators, settings, callback)?;
+            let from = AugmentedNewton::new(&problem, &start, operators);
+            found = from.solve((p, u), operators, settings, callback)?;
         }
         if found.is_none() && !increment.path.turns() {
             let frictionless = without_friction(increment, &start, operators, settings, callback)?;
             let slides = sliding_limit(increment, &problem, &frictionless, operators, settings, callback)?;
             slides.check(increment, &frictionless)?;
-            found = augmented_newton::solve(&problem, &frictionless, (p, u), operators, settings, callback)?;
+            let from = AugmentedNewton::new(&problem, &frictionless, operators);
+            found = from.solve((p, u), operators, settings, callback)?;
             if found.is_none() {
                 p.clone_from(&frictionless);
                 newton::make_shear_feasible(&problem, p, operators);

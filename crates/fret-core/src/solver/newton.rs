@@ -24,6 +24,9 @@ const MOST_ROUNDS_TO_CIRCLES: usize = 3;
 const LOST_WITHOUT_GAIN: usize = 3;
 const LOST_WITHOUT_GAIN_STIFF: usize = 2;
 const LOST_WITHOUT_GAIN_IN_STIFF_PERIOD: usize = 1;
+/// Under stiff coatings in free space as well after so many applications that leave so much over.
+const MOST_APPLICATIONS_STIFF: usize = 30;
+const LEFT_OVER: f64 = 0.3;
 
 /// Solves the equations from feasible `tractions` with their `displacements`; both end at the solution, or at what was reached.
 ///
@@ -37,27 +40,15 @@ pub fn solve(
     settings: &SolverSettings,
     callback: IterationCallback<'_>,
 ) -> Result<Solution, SolveError> {
-    go_on(Iterate::new(problem, tractions, displacements, operators), operators, settings, callback)
+    let iterate = Iterate::new(problem, tractions, displacements, operators);
+    solve_from(iterate, operators, settings, callback)
 }
 
-/// The same from tractions whose rigid `motion` another method has found.
+/// The same from an iterate.
 ///
 /// # Errors
 /// As [`solve`].
-pub fn solve_near(
-    problem: &ContactProblem<'_>,
-    motion: [f64; 3],
-    tractions: &mut Tractions,
-    displacements: &mut Displacements,
-    operators: &mut RegionOperators,
-    settings: &SolverSettings,
-    callback: IterationCallback<'_>,
-) -> Result<Solution, SolveError> {
-    let iterate = Iterate::new(problem, tractions, displacements, operators);
-    go_on(iterate.near_motion(motion), operators, settings, callback)
-}
-
-fn go_on(
+pub fn solve_from(
     mut iterate: Iterate<'_>,
     operators: &mut RegionOperators,
     settings: &SolverSettings,
@@ -72,6 +63,8 @@ fn go_on(
         (true, true) => LOST_WITHOUT_GAIN_IN_STIFF_PERIOD,
     };
     let has_another_way = iterate.is_of_both();
+    let is_dear = operators.preconditioner.is_stiff() && !operators.preconditioner.is_in_period();
+    let begun = operators.compliance.applications;
     for iteration in 0..settings.max_newton_iterations {
         let residual = iterate.evaluate();
         if callback(iteration, residual).is_break() {
@@ -86,7 +79,9 @@ fn go_on(
             return Ok(iterate.solution(iteration));
         }
         let target = forcing.next(residual, settings.tolerance);
-        if has_another_way && forcing.without_gain >= patience {
+        let spent = operators.compliance.applications - begun;
+        let is_lost = is_dear && spent >= MOST_APPLICATIONS_STIFF && residual > LEFT_OVER;
+        if has_another_way && (is_lost || forcing.without_gain >= patience) {
             return Err(not_converged(iteration, &forcing));
         }
         iterate.find_sets();

@@ -1,7 +1,7 @@
 //! What a contact carries that slides, where its pressure decides it: at a prescribed approach the normal force falls while it is dragged along; where
 //! friction differs from place to place, pressure goes over from one place to another.
 
-use super::augmented_newton;
+use super::augmented_newton::AugmentedNewton;
 use super::contact_problem::ContactProblem;
 use super::contact_set::ContactSet;
 use super::increment_problem::{COUPLED_LIMIT, IncrementProblem};
@@ -116,11 +116,11 @@ fn slides(
 ) -> Result<bool, SolveError> {
     newton::make_shear_feasible(problem, tractions, operators);
     operators.compliance.full(tractions.parts(), displacements.parts_mut());
-    let from = tractions.clone();
+    let start = tractions.clone();
     match newton::solve(problem, tractions, displacements, operators, settings, callback) {
         Err(SolveError::NotConverged { .. }) => {
-            let ends = (tractions, displacements);
-            Ok(augmented_newton::solve(problem, &from, ends, operators, settings, callback)?.is_some())
+            let from = AugmentedNewton::new(problem, &start, operators);
+            Ok(from.solve((tractions, displacements), operators, settings, callback)?.is_some())
         }
         other => other.map(|_| true),
     }

@@ -35,6 +35,12 @@ impl Tractions {
     pub fn parts(&self) -> [&[f64]; 3] {
         [&self.pressure, &self.shear.x, &self.shear.y]
     }
+
+    /// Pressure and both components of shear.
+    pub fn parts_mut(&mut self) -> [&mut [f64]; 3] {
+        let [x, y] = self.shear.parts_mut();
+        [&mut self.pressure, x, y]
+    }
 }
 
 impl Displacements {

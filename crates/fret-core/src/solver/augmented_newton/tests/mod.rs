@@ -204,7 +204,12 @@ fn what_is_stopped_is_not_solved() {
             let settings = SolverSettings { max_newton_iterations: most, ..SolverSettings::new(1e-8) };
             let (mut tractions, mut displacements) = (Tractions::zeros(6), Displacements::zeros(6));
             let (ends, mut operators) = ((&mut tractions, &mut displacements), cells.operators());
-            let solved = super::solve(problem, &start, ends, &mut operators, &settings, go_on);
+            let solved = AugmentedNewton::new(problem, &start, &mut operators).solve(
+                ends,
+                &mut operators,
+                &settings,
+                go_on,
+            );
             solved.map(|solution| solution.is_some())
         };
         let go_on: IterationCallback<'_> = &mut |_, _| ControlFlow::Continue(());

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::super::super::settings::{IterationCallback, SolverSettings};
 use super::super::super::tests::few_cells::{Asked, Cells, by_cell, size, tractions_of};
 use super::super::super::tractions::{Displacements, Tractions};
-use super::super::solve;
+use super::super::AugmentedNewton;
 use crate::random::Random;
 
 /// Solves `matrix x = right` by elimination with row exchange; `None` where there is no pivot.
@@ -123,10 +123,14 @@ fn a_row_of_cells_is_solved_as_one_of_all_its_contact_sets() {
             let (mut tractions, mut displacements) = (Tractions::zeros(count), Displacements::zeros(count));
             let ends = (&mut tractions, &mut displacements);
             let go_on: IterationCallback<'_> = &mut |_, _| ControlFlow::Continue(());
-            let mut solution = solve(problem, &start, ends, &mut operators, &settings, go_on).unwrap();
+            let mut solution = AugmentedNewton::new(problem, &start, &mut operators)
+                .solve(ends, &mut operators, &settings, go_on)
+                .unwrap();
             if solution.is_none() {
                 let ends = (&mut tractions, &mut displacements);
-                solution = solve(problem, &other, ends, &mut operators, &settings, go_on).unwrap();
+                solution = AugmentedNewton::new(problem, &other, &mut operators)
+                    .solve(ends, &mut operators, &settings, go_on)
+                    .unwrap();
             }
             let Some(solution) = solution else {
                 println!("round {round}: not solved; {} solutions, mu {:.2?}", all.len(), asked.friction);
@@ -197,9 +201,16 @@ fn oblique_shear_is_where_a_projected_iteration_ends() {
             let (mut tractions, mut displacements) = (Tractions::zeros(9), Displacements::zeros(9));
             let ends = (&mut tractions, &mut displacements);
             let go_on: IterationCallback<'_> = &mut |_, _| ControlFlow::Continue(());
-            if solve(problem, &start, ends, &mut operators, &settings, go_on).unwrap().is_none() {
+            if AugmentedNewton::new(problem, &start, &mut operators)
+                .solve(ends, &mut operators, &settings, go_on)
+                .unwrap()
+                .is_none()
+            {
                 let ends = (&mut tractions, &mut displacements);
-                solve(problem, &frictionless, ends, &mut operators, &settings, go_on).unwrap().unwrap();
+                AugmentedNewton::new(problem, &frictionless, &mut operators)
+                    .solve(ends, &mut operators, &settings, go_on)
+                    .unwrap()
+                    .unwrap();
             }
             let found = by_cell(tractions.parts());
             let most = found.iter().fold(0.0_f64, |most, [p, ..]| most.max(*p));
