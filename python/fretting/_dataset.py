@@ -63,7 +63,7 @@ def rolls(history: "History", cycle: int, frame: str | None = None) -> bool:
     """Return whether the contact rolls in a computed cycle, in this frame or in any."""
     own = (history.plan["case"].get("kinematics") or {}).get("frame", "bodies")
     first, last = span(history, cycle)
-    columns = [history.increments[name] for name in ("roll_x", "roll_y") if name in history.increments.dtype.names]
+    columns = [history.increments[name] for name in ("roll_x", "roll_y") if name in history.increments]
     way = (column[max(first - 1, 0) : last + 1] for column in columns)
     return frame in (None, own) and any(bool(np.ptp(part) > 0) for part in way)
 
