@@ -303,7 +303,7 @@ fn grids_on_which_increments_are_parts_of_cells_are_no_levels() {
     // Twelve cells of 0.1 or six of 0.2.
     let cell_by_cell = plan(12);
     assert!(
-        matches!(coarser(&cell_by_cell, 12), Err(VariationError::PartsOfCells(why)) if why.contains("0.5000 cells"))
+        matches!(coarser(&cell_by_cell, 12), Err(VariationError::PartsOfCells { why, .. }) if why.contains("0.5000 cells"))
     );
     assert_eq!(coarser(&cell_by_cell, 6).unwrap().case.increments(), 3 + 2 + 6);
 }

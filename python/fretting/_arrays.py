@@ -14,8 +14,10 @@ _LARGE = 1_000_000
 """Arrays of more numbers are asked about before they are copied: a view may stand for any number of them."""
 
 
-def real_array(name: str, values: npt.ArrayLike, dimensions: int | None = None) -> Reals:
+def real_array(name: str, values: npt.ArrayLike, dimensions: int | None = None, *, kinds: str = "fiu") -> Reals:
     """Turn `values` into a contiguous array of finite doubles; without a copy when it is one already.
+
+    `kinds` are the letters of the kinds of numbers that are taken; ``b`` are masks.
 
     Raises
     ------
@@ -30,7 +32,7 @@ def real_array(name: str, values: npt.ArrayLike, dimensions: int | None = None) 
         raise ValueError(f"{name}: expected an array of real numbers; {error}") from None
     if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
         raise ValueError(f"{name}: has masked values; what is under a mask is no number")
-    if given.dtype.kind not in "fiu":
+    if given.dtype.kind not in kinds:
         raise TypeError(f"{name}: expected real numbers, found an array of {given.dtype}")
     if dimensions is not None and given.ndim != dimensions:
         raise ValueError(f"{name} of shape {given.shape}: must have {dimensions} dimensions")

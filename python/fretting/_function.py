@@ -1,6 +1,7 @@
 """Results of a case as a function of some of its numbers: what differentiable programs and optimisers call."""
 
 import copy
+import numbers
 from collections.abc import Iterable
 
 import numpy as np
@@ -29,7 +30,7 @@ class Results:
         for number, (path, parts) in enumerate(zip(self.by, self._places, strict=True)):
             if alike[number] in alike[:number]:
                 raise ValueError(f"by: {path} is named twice")
-            if not isinstance(at(self._table, parts), int | float):
+            if not isinstance(at(self._table, parts), numbers.Real):
                 raise ValueError(f"by: {path}: no number of the case as it is written; such as 'friction.coefficient'")
         self._threads = threads
         self.start = [float(at(self._table, parts)) for parts in self._places]

@@ -18,10 +18,29 @@ def put(case: Table, key: str, value: object) -> None:
     """Give the value to the entry of a case that a dotted key names.
 
     Parts of the key are names of tables, numbers of a list's entries from 0 (negative: from the end), or, in a list of
-    tables, the ``name`` of one (a stage); ``load[0]`` is ``load.0``. Tables that are not there are made; entries of
-    lists are not.
+    tables, the ``name`` of one (a stage); ``load[0]`` is ``load.0`` where nothing is called ``load[0]``. Tables that
+    are not there are made; entries of lists are not.
     """
-    put_at(case, steps(key), key, value)
+    put_at(case, _parts(case, key), key, value)
+
+
+def _parts(table: Table, key: str) -> list[str]:
+    """Return the parts of a key of a case, numbers in brackets apart where no stage is called with them."""
+    here: Any = table
+    parts: list[str] = []
+    for part in key.split("."):
+        numbered = re.fullmatch(r"([^\[\]]+)((?:\[-?\d+\])+)", part)
+        stands_there = part in here if isinstance(here, dict) else part in _names(here)
+        of_part = steps(part) if numbered and not stands_there else [part]
+        parts += of_part
+        here = at(here, of_part)
+    return parts
+
+
+def _names(items: Any) -> list[Any]:
+    """Return what the tables of a list are called; of anything else nothing."""
+    tables = items if isinstance(items, list | tuple) else ()
+    return [item.get("name") if isinstance(item, dict) else None for item in tables]
 
 
 def put_at(case: Table, parts: Sequence[str], key: str, value: object) -> None:
@@ -46,19 +65,17 @@ def put_at(case: Table, parts: Sequence[str], key: str, value: object) -> None:
 
 
 def _entry(items: list[Any], part: str, key: str, place: str) -> int:
-    names = [item.get("name") if isinstance(item, dict) else None for item in items]
-    if part in names:
-        return names.index(part)
     try:
-        index = int(part)
+        return _index(items, part)
     except ValueError:
-        known = ", ".join(repr(name) for name in names if name) or "none has a name"
+        known = ", ".join(repr(name) for name in _names(items) if name) or "none has a name"
         raise _refusal(
             f"parameter {key!r}: no entry of {place} is called {part!r} ({known}); a number from 0 serves as well"
         ) from None
-    if not -len(items) <= index < len(items):
-        raise _refusal(f"parameter {key!r}: {place} has {len(items)} entries, from 0; there is no {index}")
-    return index
+    except IndexError:
+        raise _refusal(
+            f"parameter {key!r}: {place} has {len(items)} entries, from 0; there is no {int(part)}"
+        ) from None
 
 
 def _walk(table: Any, parts: Sequence[str]) -> Iterator[tuple[str, Any]]:
@@ -74,13 +91,13 @@ def _walk(table: Any, parts: Sequence[str]) -> Iterator[tuple[str, Any]]:
 
 def _index(items: Any, part: str) -> int:
     """Where a list has what a number, or the name of a stage, stands for."""
-    names = [item.get("name") if isinstance(item, dict) else None for item in items]
+    names = _names(items)
     return names.index(part) if part in names else range(len(items))[int(part)]
 
 
 def place(table: Table, path: str) -> tuple[str, ...]:
     """Return the parts of a path, entries of lists by their numbers: alike for all ways to write one place."""
-    return tuple(key for key, _ in _walk(table, steps(path)))
+    return tuple(key for key, _ in _walk(table, _parts(table, path)))
 
 
 def at(table: Table, parts: Sequence[str]) -> Any:

@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from fretting import _case
+from fretting import _case, _paths
 from fretting._meaning import MEANING
 from fretting._paths import Table, put
 from fretting.uncertainty import Distribution, drawn
@@ -114,6 +114,7 @@ RESERVED = {"status", "error", *MEANING}
 
 def points(base: Table, found: Sequence[Dimension]) -> Iterable[Point]:
     """All points, the last axis fastest."""
+    _refuse_one_place_twice(base, found)
     for place in itertools.product(*(range(len(dimension.changes)) for dimension in found)):
         case = copy.deepcopy(base)
         for dimension, index in zip(found, place, strict=True):
@@ -124,6 +125,15 @@ def points(base: Table, found: Sequence[Dimension]) -> Iterable[Point]:
             for key, values in dimension.coordinates.items()
         ]
         yield Point(place, ", ".join(words), case)
+
+
+def _refuse_one_place_twice(base: Table, found: Sequence[Dimension]) -> None:
+    """Refuse two keys that name one place of the case: the values of the first would be lost."""
+    before: dict[tuple[str, ...], str] = {}
+    for name in (dimension.keys.get(name, name) for dimension in found for name in dimension.coordinates):
+        other = before.setdefault(_paths.place(base, name), name)
+        if other is not name:
+            raise ValueError(f"parameters {other!r} and {name!r} are one place of the case")
 
 
 def _dimension(key: Key, given: object) -> Dimension:

@@ -78,8 +78,9 @@ def gradient(
     CaseError
         When the case is refused.
     ValueError
-        When a result or a number is not one of the case, or the case is of a kind that is not covered: with debris
-        that gives, with thinning, hardness, surfaces that move or roll, or increments in parts.
+        When a result or a number is not one of the case, or the case is of a kind that is not covered: with
+        ``wear.debris.stiffness`` or ``wear.thinning_tolerance``, hardness, surfaces that move or roll, graded coatings,
+        ``increments = "auto"``, or increments in parts.
     RunError
         When the run fails, or the linear equations of an increment are not solved.
     """
@@ -173,7 +174,7 @@ def vjp(
     for name, weight in mapping("weights", weights).items():
         text("weights", name)
         if isinstance(weight, np.ndarray) and weight.ndim > 0:
-            cells = real_array(f"weights[{name!r}]", weight)
+            cells = real_array(f"weights[{name!r}]", weight, kinds="fiub")
             if cells.ndim > 2:
                 raise ValueError(f"weights[{name!r}]: expected the shape of a field, got {cells.shape}")
             fields.append((name, cells[:, None] if cells.ndim == 1 else cells))

@@ -366,6 +366,7 @@ class History:
             raise ValueError(f"{place}: holds something already\n  = help: choose another folder, or replace=True")
         try:
             if not (place.exists() and place.samefile(self._folder)):
+                _core.clear_results(place)
                 shutil.copytree(self._folder, place, dirs_exist_ok=True)
         except OSError as error:
             raise UnreadableError(f"error: {place}: {error.strerror or error}", str(place)) from None

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from fretting import _case, _core, _dataset
 from fretting._arguments import mapping, of_kind, text, texts
-from fretting._paths import put_at, steps
+from fretting._paths import put
 from fretting.differentiating import near_in_words, told
 from fretting.uncertainty import Distribution
 
@@ -83,7 +83,7 @@ def first_order(
     table = _case.table_from_anywhere(case)
     moments = _core.moments(json.dumps(described))
     for key, (mean, _) in zip(keys, moments, strict=True):
-        put_at(table, steps(key), key, mean)
+        put(table, key, mean)
     found, near = told(table, names, keys, threads)
     variables: dict[str, Any] = {}
     for name in names:

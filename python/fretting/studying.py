@@ -131,7 +131,8 @@ def study(
     for name, meaning in _NUMBERS.items():
         variables[name] = ("level", np.asarray(numbers(level[name] for _, level in levels)), {"long_name": meaning})
     if not any(np.isfinite(variables[name][1]).any() for name in _READINGS):
-        warnings.warn(_NO_ERRORS, FrettingWarning, stacklevel=2)
+        skipped = "".join(f"; a level was left out: {level['message']}" for level in answer["unsolved"])
+        warnings.warn(_NO_ERRORS + skipped, FrettingWarning, stacklevel=2)
     variables["convolutions"] = ("level", np.asarray([level["work"]["convolutions"] for _, level in levels], dtype=int))
     variables["is_efficient"] = ("level", np.asarray([level["is_efficient"] for _, level in levels], dtype=bool))
     increments_of = ["/".join(map(str, level["increments"])) for _, level in levels]

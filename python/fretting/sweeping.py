@@ -16,7 +16,7 @@ from fretting import _case, _core, _start
 from fretting._arguments import needed, path, truth, word
 from fretting._meaning import CYCLE_MEANING, MEANING, described, in_units
 from fretting._measuring import UNMEASURED, Measuring, all_measured, measured_variable
-from fretting._paths import Table, steps
+from fretting._paths import Table
 from fretting._points import Dimension, Draw, Parameters, Point, dimensions, is_uncertain, points
 from fretting._progress import PointLine
 from fretting._sweep_folder import SweepFolder
@@ -141,8 +141,9 @@ def sweep(
     """
     needed("xarray", _NEEDS_XARRAY)
     word("keep", keep, tuple(_LENGTH))
-    if executor is not None and not callable(getattr(executor, "submit", None)):
-        raise TypeError(f"executor: expected a concurrent.futures.Executor, found {type(executor).__name__}")
+    if executor is not None and (isinstance(executor, type) or not callable(getattr(executor, "submit", None))):
+        found_one = f"the class {executor.__name__}" if isinstance(executor, type) else type(executor).__name__
+        raise TypeError(f"executor: expected a concurrent.futures.Executor, found {found_one}")
     if measure is not None and not callable(measure):
         raise TypeError(f"measure: expected a function of a History, found {type(measure).__name__}")
     _core.check_threads(threads)
@@ -438,7 +439,7 @@ def _dataset(
             plain = all(isinstance(value, int | float | str) for value in values)
             label = key if plain else f"{key}_values"
             entries = np.asarray(values if plain else [json.dumps(value) for value in values])
-            kind = _core.kind_of_key(".".join(steps(dimension.keys.get(key, key)))) if units else None
+            kind = _core.kind_of_key(dimension.keys.get(key, key)) if units else None
             coordinates[label] = (dimension.name, entries, {"units": in_units(kind, units)} if kind else {})
     if extra and length:
         coordinates[extra] = (extra, np.arange(length))

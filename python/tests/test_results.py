@@ -109,6 +109,23 @@ def test_results_of_another_case_are_kept(case: dict[str, Any], tmp_path: Path) 
         fretting.run(case, resume=True)
 
 
+@pytest.mark.parametrize("way", ["run", "save"])
+def test_answers_about_earlier_results_go_with_them(case: dict[str, Any], tmp_path: Path, way: str) -> None:
+    place, other = tmp_path / "run", {**case, "friction": {"coefficient": 0.3}}
+    fretting.run(case, folder=place)
+    (place / "stress").mkdir()
+    for name in ("stress.json", "depths.csv", "mine.csv"):
+        (place / "stress" / name).write_text("{}")
+    fretting.run(other, folder=tmp_path / "other")
+    opened = fretting.open_results(tmp_path / "other")
+    if way == "run":
+        fretting.run(other, folder=place, replace=True)
+    else:
+        opened.save(place, replace=True)
+    assert [path.name for path in (place / "stress").iterdir()] == ["mine.csv"]
+    assert_same(opened, fretting.open_results(place))
+
+
 def test_a_failed_run_keeps_what_was_solved(case: dict[str, Any], tmp_path: Path) -> None:
     # Pressed by an approach, so that only the run finds out that friction does not carry the force.
     case["load"] = [{"approach": 1e-6, "increments": 2}, {"tangential_force": [50.0, 0.0], "increments": 4}]

@@ -196,6 +196,9 @@ def test_weights_of_fields_are_pulled_back() -> None:
     found = fretting.vjp(CASE, {"pressure": 2 * area, "increments[5].shear_x": area, "normal_force": 0.5}, by=by)
     assert [found[path] for path in FORCES] == pytest.approx([2.5, 1.0], abs=1e-9)
     assert found[by[2]] * 20e-6 == pytest.approx(0.0, abs=1e-8)
+    # a mask weighs what it shows by one
+    shown = fretting.vjp(CASE, {"pressure": area > 0.0}, by=by)
+    assert shown == pytest.approx(fretting.vjp(CASE, {"pressure": np.ones((32, 32))}, by=by), rel=1e-12)
     for weights, words in (
         ({"gap": area}, "pressure, shear_x, shear_y"),
         ({"pressure": area[:5]}, "5 x 32 weights"),

@@ -184,6 +184,7 @@ def test_a_sweep_of_refused_points_only_is_refused(case: dict[str, Any]) -> None
         ("friction", "expected a mapping or a list of mappings, found str"),
         ({"load[7].normal_force": [1.0]}, "load has 2 entries, from 0; there is no 7"),
         ({"": [1.0]}, "unknown key ``"),
+        ({"load[0].normal_force": [1.0], "load.indent.normal_force": [2.0]}, "are one place of the case"),
         ({"load[0]..normal_force": [1.0]}, "unknown key ``"),
     ],
 )
@@ -335,6 +336,11 @@ def test_keys_are_read_as_the_program_prints_them(case: dict[str, Any]) -> None:
     np.testing.assert_array_equal(printed["dissipated_energy"].values, dotted["dissipated_energy"].values)
     assert printed["dissipated_energy"].dims == keys
     assert [printed[key].attrs["units"] for key in keys] == ["Pa", "N"]
+    # a stage may be called as the number of another one is written
+    case["load"][1]["name"] = "rub[0]"
+    named = fretting.sweep(case, {"load.rub[0].tangential_force[0]": [1.0, 2.0]})
+    by_number = fretting.sweep(case, {keys[1]: [1.0, 2.0]})
+    np.testing.assert_array_equal(named["dissipated_energy"].values, by_number["dissipated_energy"].values)
 
 
 @pytest.mark.parametrize(
@@ -357,6 +363,8 @@ def test_arguments_of_another_kind_are_refused_by_their_names(case: dict[str, An
             odd: dict[str, Any] = {name: value}
             with pytest.raises((TypeError, ValueError), match=name):
                 fretting.sweep(case, {FRICTION: [0.2]}, **odd)
+    with pytest.raises(TypeError, match="found the class ThreadPoolExecutor"):
+        fretting.sweep(case, {FRICTION: [0.2]}, executor=concurrent.futures.ThreadPoolExecutor)  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="apply: expected a key of the case or a function, found int"):
         fretting.Parameter([0.2], 3)  # type: ignore[arg-type]
 

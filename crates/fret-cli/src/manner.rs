@@ -16,7 +16,7 @@ use crate::failure::{Failure, Unwritten};
 use crate::figures::{duration, figure};
 use crate::interrupt::go_on;
 use crate::terminal::{self, Answer};
-use fret_results::{folder_below, folder_for_answers, is_of_a_run, write_whole};
+use fret_results::{folder_below, folder_for_answers, write_whole};
 
 /// Where an answer is written, and how much is told. What `out` is, a file or a folder, and where it is without, a command says in its own words.
 #[derive(Debug, Clone, Default, Args)]
@@ -92,17 +92,20 @@ impl Manner {
 }
 
 /// Whether a file is an answer of this program that another one may replace: of the kinds of `extensions`, and, where that is JSON, with a status;
-/// nothing that a run has written.
+/// not the record of a run, which names its program.
 fn is_earlier_answer(path: &Path, extensions: &[&str]) -> bool {
     let kind = extensions
         .iter()
         .find(|ours| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(ours)));
     match kind {
         Some(&"json") => {
-            let read =
-                fs::read(path).ok().and_then(|text| serde_json::from_slice::<serde_json::Value>(&text).ok());
-            read.is_some_and(|answer| answer.get("status").is_some_and(serde_json::Value::is_string))
-                && !is_of_a_run(path)
+            let text = fs::read(path).unwrap_or_default();
+            let answer: Option<serde_json::Value> = serde_json::from_slice(&text).ok();
+            text.is_empty()
+                || answer.is_some_and(|answer| {
+                    answer.get("status").is_some_and(serde_json::Value::is_string)
+                        && answer.get("program").is_none()
+                })
         }
         Some(_) => true,
         None => false,

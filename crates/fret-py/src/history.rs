@@ -9,7 +9,7 @@ use fret_core::history::{
 };
 use fret_core::plan::Plan;
 use fret_core::study::StageQuantities;
-use fret_results::{CaseFile, Wish};
+use fret_results::{CaseFile, ResultFolder, Wish};
 use numpy::{IntoPyArray, PyArray1, ToPyArray};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyResult, Python, pyclass, pyfunction, pymethods};
@@ -159,6 +159,12 @@ impl History {
 #[pyfunction]
 pub fn kind_of_key(key: &str) -> Option<&'static str> {
     fret_cli::embedded::kind_of_key(key)
+}
+
+/// Removes the results in a folder, and what is computed of them.
+#[pyfunction]
+pub fn clear_results(folder: PathBuf) -> PyResult<()> {
+    ResultFolder::clear(&folder).map_err(|error| stopped(error.into()))
 }
 
 /// Every column and field by its kind, name, meaning and unit, as JSON text: what the Python package says of them is made from it.

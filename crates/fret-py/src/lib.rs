@@ -47,7 +47,7 @@ mod _core {
     #[pymodule_export]
     use crate::gradient::{check_derivatives, check_results, gradient, pulled_back};
     #[pymodule_export]
-    use crate::history::{History, kind_of_key, vocabulary};
+    use crate::history::{History, clear_results, kind_of_key, vocabulary};
     #[pymodule_export]
     use crate::identify::{identify, identify_indentation};
     #[pymodule_export]

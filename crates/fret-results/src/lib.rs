@@ -34,7 +34,7 @@ pub use checkpoint_folder::{Head, Stored};
 pub use error::{ResultsError, Unwritten};
 pub use fields::Fields;
 pub use instruments::{ReadInstrument, read_instruments_by};
-pub use names::{ERROR_BARS, HEAT, SCAR, STRESS, is_of_a_run};
+pub use names::{ERROR_BARS, HEAT, SCAR, STRESS, is_named};
 pub use origin::{Origin, planned_from};
 pub use packed_file::{read_packed, write_packed};
 pub use place::{folder_below, folder_for_answers, new_file, own_file, refuse_link, resolved_path, stem};

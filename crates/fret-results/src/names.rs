@@ -25,12 +25,19 @@ pub const STRESS: [&str; 2] = ["stress", "stress.json"];
 pub const HEAT: [&str; 2] = ["heat", "heat.json"];
 /// A comparison of its scar with a measured one.
 pub const SCAR: [&str; 2] = ["scar", "scar.json"];
-/// What is computed of a run when it is over, and shown beside it.
-pub const ANSWERS: [[&str; 2]; 3] = [STRESS, HEAT, SCAR];
+/// What is computed of a run when it is over, and shown beside it; with the names of what stands beside the record, in which `#` is a number.
+pub const ANSWERS: [([&str; 2], &[&str]); 3] = [
+    (STRESS, &["depths.csv", "fatigue.csv", "crack.csv", "von_mises-#.svg", "volume-#.vtr"]),
+    (HEAT, &["temperature.npz"]),
+    (SCAR, &["scar.csv", "scar.svg"]),
+];
 
-/// Whether a path has the name of a file that a run writes.
-pub fn is_of_a_run(path: &std::path::Path) -> bool {
-    path.file_name().is_some_and(|name| WRITTEN.iter().any(|written| name == *written))
+/// Whether a name is one of a pattern, in which `#` is a number.
+pub fn is_named(name: &str, pattern: &str) -> bool {
+    pattern.split_once('#').map_or(name == pattern, |(before, after)| {
+        let number = name.strip_prefix(before).and_then(|rest| rest.strip_suffix(after));
+        number.is_some_and(|number| !number.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit()))
+    })
 }
 
 /// All that a run writes.

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use fret_core::history::{CycleRecord, KeptFields, StepRecord, Warning};
 use fret_core::plan::Plan;
 use fret_core::run::Waypoint;
+use fret_core::subsurface::fatigue::Parameter;
 
 use crate::case_file::CaseFile;
 use crate::checkpoint_folder::{CheckpointFolder, Found, Head, Stored};
@@ -18,16 +19,15 @@ use crate::checksums::checksums;
 use crate::error::{ResultsError, Unwritten};
 use crate::field_store::FieldStore;
 use crate::history_table::{HistoryTable, Lines};
-use crate::names::{ANSWERS, CASE, CHECKPOINT, CYCLES, ERROR_BARS, FIELDS, HISTORY, RECORD, WRITTEN};
+use crate::names::{
+    ANSWERS, CASE, CHECKPOINT, CYCLES, ERROR_BARS, FIELDS, HISTORY, RECORD, STRESS, WRITTEN, is_named,
+};
 use crate::place::{refuse_link, refuse_links_below};
 use crate::results::Results;
 use crate::run_record::{Ending, Glance, Record, RunRecord, question};
 use crate::state_store::{StateStore, has_memory, states_below};
 use crate::tally::Tally;
 use crate::whole_file::write_whole;
-
-/// Kinds of files of which answers about results consist.
-const OF_ANSWERS: [&str; 5] = ["json", "csv", "svg", "npz", "vtr"];
 
 /// What lies where the results shall go.
 #[derive(Debug)]
@@ -121,6 +121,7 @@ impl ResultFolder {
         let is_solved = record.status == "solved";
         let is_broken_off = !is_solved && CheckpointFolder::is_below(path);
         let same_text = || fs::read(path.join(CASE)).is_ok_and(|text| text == case_file.text.as_bytes());
+        let is_same_case = || record.is_of_case(case_file) || same_text();
         match wish {
             Wish::Resume if !record.is_known() => refuse(
                 "results of another program, or of another version of the format",
@@ -153,11 +154,11 @@ impl ResultFolder {
                 "holds an unfinished run of this case",
                 "continue with --resume, or start from the beginning with --force".to_owned(),
             ),
-            Wish::Start if is_solved && !record.starts_as(plan) => refuse(
+            Wish::Start if is_solved && is_same_case() && !record.starts_as(plan) => refuse(
                 "holds results that start from another state",
                 format!("{other_folder}, or replace them with --force"),
             ),
-            _ if record.is_of_case(case_file) || same_text() => Ok(Standing::SameCase),
+            _ if is_same_case() => Ok(Standing::SameCase),
             Wish::Force => Ok(Standing::Forced),
             Wish::Start => refuse(
                 "holds the results of another case",
@@ -184,9 +185,7 @@ impl ResultFolder {
         checkpoints.clear()?;
         remove_earlier_fields(&path.join(FIELDS))?;
         remove_earlier_file(&path.join(ERROR_BARS))?;
-        for [folder, record] in ANSWERS {
-            remove_earlier_answer(&path.join(folder), record)?;
-        }
+        remove_earlier_answers(path)?;
         write_whole(&path.join(CASE), case_file.text.as_bytes())?;
         for (name, content) in case_file.beside.iter().flat_map(|beside| &beside.contents) {
             write_whole(&path.join(name), content)?;
@@ -203,6 +202,24 @@ impl ResultFolder {
             checkpoints,
             increments: plan.case.increments(),
         })
+    }
+
+    /// Removes results and what is computed of them, so that others can be copied there; from a folder that holds none, nothing.
+    ///
+    /// # Errors
+    /// When a run writes into it, or one of them cannot be removed.
+    pub fn clear(path: &Path) -> Result<(), ResultsError> {
+        if !path.join(RECORD).exists() {
+            return Ok(());
+        }
+        refuse_links_below(path, &WRITTEN)?;
+        CheckpointFolder::refuse_taken(path)?;
+        remove_earlier_answers(path)?;
+        for name in WRITTEN {
+            let entry = path.join(name);
+            if entry.is_dir() { remove_earlier_fields(&entry)? } else { remove_earlier_file(&entry)? }
+        }
+        Ok(())
     }
 
     /// Takes up the unfinished run in the folder; `None` where it had not solved any increment. What lies beyond the checkpoint
@@ -401,20 +418,27 @@ fn remove_earlier_file(path: &Path) -> Result<(), Unwritten> {
     }
 }
 
-/// The record, and what was written beside it, of an answer about the results that were there; other files stay.
-fn remove_earlier_answer(folder: &Path, record: &str) -> Result<(), Unwritten> {
-    if refuse_link(folder).is_err() || !folder.join(record).exists() {
-        return Ok(());
-    }
-    for entry in fs::read_dir(folder).map_err(Unwritten::at(folder))?.flatten() {
-        let path = entry.path();
-        let written = path.extension().is_some_and(|kind| OF_ANSWERS.iter().any(|written| kind == *written));
-        if written && path.is_file() {
-            remove_earlier_file(&path)?;
+/// What is computed of the results that were there; other files stay.
+fn remove_earlier_answers(path: &Path) -> Result<(), Unwritten> {
+    for ([folder, record], beside) in ANSWERS {
+        let folder = path.join(folder);
+        if refuse_link(&folder).is_err() || !folder.join(record).exists() {
+            continue;
         }
+        let is_ours = |name: &str| {
+            let pictures = || Parameter::ALL.iter().any(|of| name.strip_suffix(".svg") == Some(of.name()));
+            name == record
+                || beside.iter().any(|pattern| is_named(name, pattern))
+                || record == STRESS[1] && pictures()
+        };
+        for entry in fs::read_dir(&folder).map_err(Unwritten::at(&folder))?.flatten() {
+            if entry.file_name().to_str().is_some_and(is_ours) {
+                remove_earlier_file(&entry.path())?;
+            }
+        }
+        // One with files of others stays.
+        let _ = fs::remove_dir(&folder);
     }
-    // One with files of others stays.
-    let _ = fs::remove_dir(folder);
     Ok(())
 }
 

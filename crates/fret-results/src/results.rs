@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use fret_core::case::{CaseRecord, Side, StressRequest};
 use fret_core::history::{CycleRecord, FIELDS, RunningCondition, running_condition};
 use fret_core::machine::memory;
-use fret_core::model::{Dimension, SurfaceGrid};
+use fret_core::model::{Dimension, Frame, SurfaceGrid};
 use fret_core::plan::{Coupling, PlanRecord};
 use fret_core::subsurface::EvenStress;
 use fret_core::subsurface::fatigue::LayerConstants;
@@ -126,9 +126,14 @@ impl Results {
     /// That no fatigue is told of the last stage, since the places of the bodies travel through the grid in its cycles, in a sentence; none where
     /// they stay.
     pub fn places_travel(&self) -> Option<String> {
-        let stages = &self.case().stages;
-        let last = self.table.column("stage").last().and_then(|stage| stages.get(*stage as usize))?;
-        (last.cycles().is_some() && self.case().places_travel(last)).then(|| {
+        let ([first, last], cyclic) = self.last_cycle();
+        let rolls = |name: &str| {
+            let way = self.table.column(name).get(first..=last).unwrap_or_default();
+            way.iter().any(|roll| *roll != way[0])
+        };
+        let travel =
+            cyclic && self.case().kinematics.frame == Frame::Contact && (rolls("roll_x") || rolls("roll_y"));
+        travel.then(|| {
             "no fatigue is told of cycles of roll with kinematics.frame = \"contact\", in which the places of the bodies travel through the grid: frame = \
              \"bodies\", on a grid that holds all of the way, keeps them"
                 .to_owned()

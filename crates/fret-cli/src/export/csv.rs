@@ -12,7 +12,7 @@ use ndarray::Array2;
 
 /// Writes the results as CSV into a folder; the files.
 pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
-    folder(path, "history.csv", ".csv")?;
+    folder(path, ["history.csv", "fields_#.csv"])?;
     let mut files = vec![path.join("history.csv")];
     written(&files[0], |writer| {
         writer.write_all(results.table.text.as_bytes()).map_err(|error| Unwritten::at(path)(error).into())

@@ -10,7 +10,7 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use crate::failure::{Failure, Unwritten};
-use fret_results::{new_file, part_of, refuse_link, resolved_path};
+use fret_results::{is_named, new_file, part_of, refuse_link, resolved_path};
 
 /// Writes a file in one go beside its place and renames it there: a reader never finds a part.
 fn written(
@@ -31,28 +31,29 @@ fn written(
     outcome
 }
 
-/// Makes a folder for the `fields_*` of an increment with this ending and for the file named after the history. What it holds has to be an earlier
-/// export, which is then gone.
-fn folder(path: &Path, history: &str, ending: &str) -> Result<(), Failure> {
+/// Makes a folder for the file named after the history, and those of the fields of an increment, in whose names `#` is a number. Earlier ones are gone
+/// then. A folder of other files, or of results, is none of an export.
+fn folder(path: &Path, names: [&str; 2]) -> Result<(), Failure> {
     let path = resolved_path(path);
     refuse_link(&path)?;
-    let is_ours = |name: &str| {
-        let number = name.strip_prefix("fields_").and_then(|rest| rest.strip_suffix(ending));
-        name == history || number.is_some_and(|number| number.bytes().all(|digit| digit.is_ascii_digit()))
-    };
-    let entries: Vec<_> = fs::read_dir(&path).into_iter().flatten().flatten().collect();
-    if let Some(other) = entries.iter().find(|entry| !entry.file_name().to_str().is_some_and(is_ours)) {
+    let [history, _] = names;
+    let (mut ours, mut others) = (Vec::new(), Vec::new());
+    for entry in fs::read_dir(&path).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let name = name.to_str().unwrap_or_default();
+        let is_ours =
+            names.iter().any(|pattern| is_named(name.strip_suffix(".part").unwrap_or(name), pattern));
+        if is_ours { ours.push(entry.path()) } else { others.push(name.to_owned()) }
+    }
+    let is_earlier = path.join(history).exists() && !path.join("run.json").exists();
+    if let Some(other) = others.first().filter(|_| !is_earlier) {
         return Err(Failure::call(
-            format!(
-                "{}: holds {}, which is no file of an export",
-                path.display(),
-                other.file_name().display()
-            ),
+            format!("{}: holds {other}, and no earlier export of this kind", path.display()),
             "choose another folder with --out DIR",
         ));
     }
-    for entry in entries {
-        fs::remove_file(entry.path()).map_err(Unwritten::at(&entry.path()))?;
+    for file in ours {
+        fs::remove_file(&file).map_err(Unwritten::at(&file))?;
     }
     fs::create_dir_all(&path).map_err(|error| Unwritten::at(&path)(error).into())
 }

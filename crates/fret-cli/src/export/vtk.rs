@@ -14,7 +14,7 @@ use fret_results::{Fields, Results, kind_of_field, write_whole};
 
 /// Writes the results as VTK files into a folder; the files, the list of them first.
 pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
-    folder(path, "history.pvd", ".vti")?;
+    folder(path, ["history.pvd", "fields_#.vti"])?;
     let fields = &results.fields;
     let list = path.join("history.pvd");
     let mut files = vec![list.clone()];

@@ -73,7 +73,7 @@ pub fn computed(
         resistance,
         wall_s: started.elapsed().as_secs_f64(),
     };
-    manner.write_json(&place.join("heat.json"), &record)?;
+    manner.write_json(&place.join(HEAT[1]), &record)?;
     let mut table = record.unfinished.as_ref().map_or(String::new(), |why| format!("{why}\n"));
     for [name, value, of] in record.lines(|value, kind| figure_in(run.units(), value, kind)) {
         let _ = if of.is_empty() {

@@ -6,12 +6,11 @@ use serde_json::{Value, json};
 
 use super::constant::{cell, cells, line, of_constant};
 use super::identified::Identified;
-use super::keys::{case_with, value_of};
+use super::keys::{case_with, dotted, value_of};
 use super::record::rows_in_words;
 use crate::failure::Failure;
 use crate::figures::{counted, figure};
 use crate::report::{number, table, whole_page};
-use crate::sweep::key::dotted;
 use crate::table::Columns;
 use fret_drawing::{Chart, Curve, Label, Stroke};
 use fret_results::CaseFile;

@@ -23,7 +23,7 @@ pub fn value_of(case_file: &CaseFile, key: &str) -> Result<f64, Failure> {
     }
     let table: Table = case_file.text.parse().map_err(|_| unknown(key))?;
     let root = toml::Value::Table(table);
-    let found = key::dotted(key).split('.').try_fold(&root, |here, part| {
+    let found = dotted(key).split('.').try_fold(&root, |here, part| {
         part.parse::<usize>().map_or_else(|_| here.get(part), |index| here.get(index))
     });
     let value =
@@ -37,6 +37,11 @@ fn unknown(key: &str) -> Failure {
         "a key such as lower.substrate.young or lower.coatings.0.thickness; a number that is a default, or that another key stands for \
          (profile.pyramid.indenter for half_angle), is written into the case first",
     )
+}
+
+/// A key with numbers in brackets as one with numbers for keys: `lower.coatings[0].young` as `lower.coatings.0.young`.
+pub fn dotted(key: &str) -> String {
+    key.replace('[', ".").replace(']', "")
 }
 
 /// The case with other numbers at keys.

@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::manner::Manner;
 use crate::plan_words::{left_out_in_short, warning_line};
 use crate::threads;
-use fret_results::{CaseFile, Origin, ResultFolder, Standing, Wish, resolved_path};
+use fret_results::{CaseFile, HEAT, Origin, ResultFolder, SCAR, STRESS, Standing, Wish, resolved_path};
 
 /// What is to be run, and where to.
 pub struct Wanted {
@@ -128,7 +128,12 @@ fn announce(manner: &Manner, plan: &Plan, folder: &Path, standing: &Standing) {
     match standing {
         Standing::Free | Standing::Unfinished | Standing::Solved(_) => {}
         Standing::SameCase => {
-            manner.say(&format!("{shown}: the earlier results of this case are replaced"));
+            let answers = [STRESS, HEAT, SCAR].map(|[name, record]| (name, folder.join(name).join(record)));
+            let gone: Vec<&str> =
+                answers.iter().filter(|(_, record)| record.exists()).map(|(name, _)| *name).collect();
+            let with =
+                if gone.is_empty() { String::new() } else { format!(", and their {}", gone.join(", ")) };
+            manner.say(&format!("{shown}: the earlier results of this case are replaced{with}"));
             let made_since = ["report.html", "export.npz", "csv", "vtk"];
             let old: Vec<&str> = made_since.into_iter().filter(|name| folder.join(name).exists()).collect();
             if !old.is_empty() {

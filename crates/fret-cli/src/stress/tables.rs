@@ -16,6 +16,7 @@ use crate::failure::Failure;
 use crate::figures::{counted, duration, indented};
 use crate::manner::Manner;
 use crate::table::Columns;
+use fret_results::STRESS;
 
 /// More sections than this are not drawn.
 const MOST_SECTIONS: usize = 12;
@@ -112,7 +113,7 @@ impl<'a> StressTables<'a> {
             coating: fatigue.coating,
             wall_s,
         };
-        manner.write_json(&place.join("stress.json"), &record)?;
+        manner.write_json(&place.join(STRESS[1]), &record)?;
         let mut columns = Columns::<AtDepth>::new()
             .column("increment", "", |(increment, ..)| *increment)
             .column("depth", "length", |(_, point, _)| point.depth)

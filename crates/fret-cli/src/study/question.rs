@@ -4,7 +4,7 @@ use std::path::Path;
 
 use fret_core::machine::memory;
 use fret_core::plan::Plan;
-use fret_core::study::{ClosedForm, Reference, RefinementStudy, Resolutions};
+use fret_core::study::{ClosedForm, Reference, RefinementStudy, Resolutions, VariationError};
 
 use super::reference::reference;
 use crate::arguments::StudyRequest;
@@ -43,7 +43,12 @@ fn fits_memory(resolutions: &Resolutions, plan: &Plan) -> Result<(), Failure> {
         let message = format!("--cells {}: a grid of {cells} cells {error}", finest.cells[0]);
         Failure::call(message, "--cells with smaller numbers")
     };
-    let planned = finest.planned(plan).map_err(|error| too_many(&error))?;
+    let planned = finest.planned(plan).map_err(|error| match error {
+        VariationError::PartsOfCells { why, help } => {
+            Failure::call(format!("--cells {}: {why}", finest.cells[0]), help)
+        }
+        other => too_many(&other),
+    })?;
     memory::check(planned.memory_bytes).map_err(|error| too_many(&error))
 }
 

@@ -72,7 +72,7 @@ pub fn studied(
     let shown = |quantity| known.iter().any(|column| column.is_of(quantity));
     let said = [words::measured_by, words::without_order].map(|of| of(&reference, &shown, dimension));
     let measured =
-        if known.is_empty() { words::NO_ERRORS.to_owned() } else { said.join("\n").trim_end().to_owned() };
+        if known.is_empty() { words::no_errors(&unsolved) } else { said.join("\n").trim_end().to_owned() };
     let of_the_way = words::first_after_steady(&plan.case.stages)
         .map(|stage| words::of_the_way(&plan.case.stages[stage].name, "are not compared"));
     let measured = [measured].into_iter().chain(of_the_way).collect::<Vec<_>>().join("\n");
@@ -105,7 +105,7 @@ fn all_levels(
         );
         let varied = match variation.planned(plan) {
             Ok(varied) => varied,
-            Err(VariationError::PartsOfCells(why)) if *place != resolutions.finest() => {
+            Err(VariationError::PartsOfCells { why, .. }) if *place != resolutions.finest() => {
                 say(&format!("{head}: skipped, {why}"));
                 unsolved.push((*place, why));
                 continue;

@@ -2,12 +2,17 @@
 
 use fret_core::model::Dimension;
 use fret_core::model::stage::Stage;
-use fret_core::study::{Advice, Convergence, Quantity, Reference, Resolutions, Source};
+use fret_core::study::{Advice, Convergence, Place, Quantity, Reference, Resolutions, Source};
 
 use crate::figures::counted;
 
-/// Why a study shows no errors.
-pub const NO_ERRORS: &str = "no errors: no closed form is available for this case, and a single level cannot be compared \
+/// Why a study shows no errors; with the levels that have no answer.
+pub fn no_errors(unsolved: &[(Place, String)]) -> String {
+    let skipped = unsolved.iter().map(|(_, why)| format!("; a level was left out: {why}"));
+    std::iter::once(NO_ERRORS.to_owned()).chain(skipped).collect()
+}
+
+const NO_ERRORS: &str = "no errors: no closed form is available for this case, and a single level cannot be compared \
                              with a finer one; give more levels, as in --cells 32,64,128, or numbers with --against FILE";
 
 /// Why a largest pressure has no limit.

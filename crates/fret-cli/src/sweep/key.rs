@@ -4,52 +4,91 @@ use toml::{Table, Value};
 
 /// Gives `value` to the entry of a case that a dotted key names.
 ///
-/// Parts are names of tables, numbers of a list's entries from 0 (negative: from the end; `load[0]` is `load.0`), or, in a list of tables, the
-/// `name` of one. Tables that are not there are made, entries of lists are not.
+/// Parts are names of tables, numbers of a list's entries from 0 (negative: from the end), or, in a list of tables, the
+/// `name` of one. `load[0]` is `load.0` where nothing is called `load[0]`. Tables that are not there are made, entries of lists are not.
 ///
 /// # Errors
 /// What stands where the key leads, when it leads nowhere.
 pub fn put(case: &mut Table, key: &str, value: &Value) -> Result<(), String> {
-    let nothing = || Value::Table(Table::new());
-    let key = dotted(key);
-    let key = key.as_str();
-    let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
-    let (mut here, mut place) = (case.entry(first).or_insert_with(nothing), first.to_owned());
-    for part in rest.into_iter().flat_map(|rest| rest.split('.')) {
+    let mut all = Value::Table(std::mem::take(case));
+    let done = put_in(&mut all, key, value);
+    if let Value::Table(all) = all {
+        *case = all;
+    }
+    done
+}
+
+fn put_in(case: &mut Value, key: &str, value: &Value) -> Result<(), String> {
+    let (mut here, mut place) = (case, String::new());
+    let mut parts: Vec<&str> = key.split('.').rev().collect();
+    while let Some(part) = parts.pop() {
+        if let Some((name, numbers)) = apart(Some(here), part) {
+            parts.extend(numbers.into_iter().rev());
+            parts.push(name);
+            continue;
+        }
         here = match here {
-            Value::Table(table) => table.entry(part).or_insert_with(nothing),
+            Value::Table(table) => table.entry(part).or_insert_with(|| Value::Table(Table::new())),
             Value::Array(items) => {
                 let index = entry_of(items, &place, part)?;
                 &mut items[index]
             }
             other => return Err(format!("{place} is {other}, which has no entry `{part}`")),
         };
-        place = format!("{place}.{part}");
+        place = if place.is_empty() { part.to_owned() } else { format!("{place}.{part}") };
     }
     *here = value.clone();
     Ok(())
 }
 
-/// A key with the numbers of entries between points: `load[0].normal_force`, as derivatives name it, is `load.0.normal_force`.
-pub fn dotted(key: &str) -> String {
-    let is_number = |word: &str| word.parse::<isize>().is_ok();
-    let part = |part: &str| match part.strip_suffix(']').and_then(|part| part.split_once('[')) {
-        Some((name, numbers)) if numbers.split("][").all(is_number) => {
-            std::iter::once(name).chain(numbers.split("][")).collect::<Vec<_>>().join(".")
-        }
-        _ => part.to_owned(),
+/// The name and the numbers of a part as `load[0]`, where nothing is called so.
+fn apart<'k>(here: Option<&Value>, part: &'k str) -> Option<(&'k str, Vec<&'k str>)> {
+    let (name, numbers) = part.strip_suffix(']')?.split_once('[').filter(|(name, _)| !name.is_empty())?;
+    let numbers: Vec<&str> = numbers.split("][").collect();
+    let stands_there = match here {
+        Some(Value::Table(table)) => table.contains_key(part),
+        Some(Value::Array(items)) => items.iter().any(|item| is_called(item, part)),
+        _ => false,
     };
-    key.split('.').map(part).collect::<Vec<_>>().join(".")
+    let are_numbers = numbers.iter().all(|number| number.parse::<isize>().is_ok());
+    (are_numbers && !stands_there).then_some((name, numbers))
+}
+
+fn is_called(item: &Value, name: &str) -> bool {
+    item.get("name").and_then(Value::as_str) == Some(name)
+}
+
+/// The place in a case that a key names: alike for all ways to write it.
+pub fn place(case: &Table, key: &str) -> Vec<String> {
+    let all = Value::Table(case.clone());
+    let (mut here, mut place) = (Some(&all), Vec::new());
+    let mut parts: Vec<&str> = key.split('.').rev().collect();
+    while let Some(part) = parts.pop() {
+        if let Some((name, numbers)) = apart(here, part) {
+            parts.extend(numbers.into_iter().rev());
+            parts.push(name);
+            continue;
+        }
+        let index = match here {
+            Some(Value::Array(items)) => entry_of(items, "", part).ok(),
+            _ => None,
+        };
+        place.push(index.map_or_else(|| part.to_owned(), |index| index.to_string()));
+        here = here.and_then(|here| index.map_or_else(|| here.get(part), |index| here.get(index)));
+    }
+    place
 }
 
 /// Parts of a key that are no numbers of entries.
 pub fn words_of(key: &str) -> Vec<&str> {
-    key.split('.').filter(|part| part.parse::<usize>().is_err()).collect()
+    key.split('.')
+        .map(|part| apart(None, part).map_or(part, |(name, _)| name))
+        .filter(|part| part.parse::<usize>().is_err())
+        .collect()
 }
 
 fn entry_of(items: &[Value], place: &str, word: &str) -> Result<usize, String> {
-    let named = |item: &Value| item.get("name").and_then(Value::as_str) == Some(word);
-    if let Some(index) = items.iter().position(named) {
+    if let Some(index) = items.iter().position(|item| is_called(item, word)) {
         return Ok(index);
     }
     let Ok(number) = word.parse::<isize>() else {
@@ -66,23 +105,28 @@ fn entry_of(items: &[Value], place: &str, word: &str) -> Result<usize, String> {
 mod tests {
     use super::*;
 
+    /// One place in all the ways to write it; a stage may be called as a number of another one is written.
     #[test]
     fn numbers_of_entries_stand_between_points_or_in_brackets() {
-        for (key, dotted_key) in [
-            ("load[0].normal_force", "load.0.normal_force"),
-            ("lower.coatings[1].young", "lower.coatings.1.young"),
-            ("load[-1].tangential_force[0]", "load.-1.tangential_force.0"),
-            ("friction.coefficient", "friction.coefficient"),
-            ("load.press [1]", "load.press .1"),
-            ("load.[odd]", "load.[odd]"),
-        ] {
-            assert_eq!(dotted(key), dotted_key);
+        let mut named = case();
+        put(&mut named, "load.1.name", &Value::String("rub[1]".to_owned())).unwrap();
+        let keys = [
+            "load.1.tangential_force.0",
+            "load[1].tangential_force[0]",
+            "load[-1].tangential_force.0",
+            "load.rub[1].tangential_force[-2]",
+        ];
+        let changed = keys.map(|key| {
+            let mut changed = named.clone();
+            put(&mut changed, key, &Value::Float(2.0)).unwrap();
+            assert_eq!(place(&named, key).join("."), keys[0], "{key}");
+            changed
+        });
+        assert!(changed.iter().all(|one| *one == changed[0] && *one != named));
+        assert_eq!(words_of("load[1].tangential_force[0]"), ["load", "tangential_force"]);
+        for nowhere in ["load.press[1].normal_force", "load[2].normal_force", "load[x]"] {
+            put(&mut case(), nowhere, &Value::Float(2.0)).unwrap_err();
         }
-        let mut one = case();
-        put(&mut one, "load[1].tangential_force[0]", &Value::Float(2.0)).unwrap();
-        let mut other = case();
-        put(&mut other, "load.1.tangential_force.0", &Value::Float(2.0)).unwrap();
-        assert!(one == other && one != case());
     }
 
     fn case() -> Table {

@@ -11,7 +11,7 @@ use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
 use crate::sweep::drawn::{Drawn, KINDS};
-use crate::sweep::key::{dotted, put};
+use crate::sweep::key::{place, put, words_of};
 use fret_results::CaseFile;
 
 /// More mistakes than this are not told.
@@ -121,6 +121,10 @@ impl Reader<'_> {
         let Some((base, folder)) = base.filter(|_| self.mistakes.is_empty()) else {
             return Err(self.refusal());
         };
+        self.refuse_one_place_twice(&base, &axes);
+        if !self.mistakes.is_empty() {
+            return Err(self.refusal());
+        }
         let points = self.combined(&base, &folder, &axes);
         if let Some(first) = points.first() {
             self.refuse_unknown_keys(first, &axes);
@@ -177,7 +181,7 @@ impl Reader<'_> {
                 DeValue::Table(_) => self.axes(value, &format!("{key}."), axes),
                 DeValue::Array(items) if !items.is_empty() => {
                     let rows = items.iter().map(|item| vec![self.plain(item)]).collect();
-                    axes.push(Axis { keys: vec![dotted(&key)], rows, span: value.span() });
+                    axes.push(Axis { keys: vec![key], rows, span: value.span() });
                 }
                 _ => self.refuse(
                     value.span(),
@@ -201,7 +205,7 @@ impl Reader<'_> {
             return None;
         }
         let rows = tables.iter().map(|table| table.values().cloned().collect()).collect();
-        Some(Axis { keys: keys.into_iter().map(|key| dotted(key)).collect(), rows, span: value.span() })
+        Some(Axis { keys: keys.into_iter().cloned().collect(), rows, span: value.span() })
     }
 
     /// Distributions of a table; tables in it that are none are parts of dotted keys.
@@ -223,7 +227,7 @@ impl Reader<'_> {
                 continue;
             }
             let plain = self.plain(value);
-            if let Err(message) = drawn.add(dotted(&key), plain) {
+            if let Err(message) = drawn.add(key, plain) {
                 self.refuse(value.span(), message, Some(help));
             }
         }
@@ -303,13 +307,28 @@ impl Reader<'_> {
         points
     }
 
+    /// Refuses two keys that name one place: the values of the first would be lost.
+    fn refuse_one_place_twice(&mut self, base: &Table, axes: &[Axis]) {
+        let mut before: Vec<(Vec<String>, &String)> = Vec::new();
+        for axis in axes {
+            for key in &axis.keys {
+                let place = place(base, key);
+                if let Some((_, other)) = before.iter().find(|(known, _)| *known == place) {
+                    let message = format!("`{key}` and `{other}` are one place of the case");
+                    self.refuse(axis.span.clone(), message, Some("one of the two"));
+                }
+                before.push((place, key));
+            }
+        }
+    }
+
     /// Refuses, once and not at every point, the axes whose keys no case knows.
     fn refuse_unknown_keys(&mut self, first: &Point, axes: &[Axis]) {
         let Err(error) = first.case_file.case(None) else { return };
         let unknown = |mistake: &Mistake| mistake.message.starts_with("unknown key `");
         for mistake in error.mistakes().iter().filter(|mistake| unknown(mistake)) {
             let word = mistake.message.split('`').nth(1).unwrap_or_default();
-            let names = |key: &String| key.split('.').any(|part| part == word);
+            let names = |key: &String| words_of(key).contains(&word);
             let axis = axes.iter().find_map(|axis| axis.keys.iter().find(|key| names(key)).zip(Some(axis)));
             if let Some((key, axis)) = axis {
                 let message = format!("{key}: {}", mistake.message);

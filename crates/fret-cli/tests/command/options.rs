@@ -160,18 +160,21 @@ fn an_export_replaces_an_earlier_one_alone() {
         for place in ["ends", "mine"] {
             let refused = bench.fret(&["export", "often", form, "-o", place]);
             assert!(
-                refused.code == Some(1) && refused.err.contains("no file of an export"),
+                refused.code == Some(1) && refused.err.contains("no earlier export of this kind"),
                 "{}",
                 refused.err
             );
         }
         let table = bench.text("ends/history.csv");
-        for case in ["often", "ends"] {
-            assert_eq!(bench.fret(&["export", case, form, "-o", "exported"]).code, Some(0));
-        }
-        let fields = std::fs::read_dir(bench.folder.join("exported")).unwrap().count() - 1;
-        // the ends of two stages
-        assert_eq!((fields, bench.text("ends/history.csv")), (2, table), "{form}");
+        assert_eq!(bench.fret(&["export", "often", form, "-o", "exported"]).code, Some(0));
+        // what others put beside it stays; what a kill has left does not
+        let left = if form == "--csv" { "exported/history.csv.part" } else { "exported/history.pvd.part" };
+        bench.file("exported/view.pvsm", "mine").file(left, "half");
+        assert_eq!(bench.fret(&["export", "ends", form, "-o", "exported"]).code, Some(0));
+        let files = std::fs::read_dir(bench.folder.join("exported")).unwrap().count();
+        // the history, the ends of two stages, and the file of another
+        assert_eq!((files, bench.text("ends/history.csv")), (4, table), "{form}");
+        assert_eq!(bench.text("exported/view.pvsm"), "mine");
         std::fs::remove_dir_all(bench.folder.join("exported")).unwrap();
     }
 }
@@ -190,7 +193,7 @@ fn answers_about_earlier_results_go_with_them() {
     run();
     assert_eq!(bench.fret(&["report", "out"]).code, Some(0));
     assert!(!bench.text("out/report.html").contains("Stress below the surface"));
-    assert_eq!(bench.text("out/stress/notes.txt"), "mine");
+    assert_eq!(bench.text("out/stress/notes.csv"), "mine");
     // one that cannot be read is told, with what to do
     bench.file("out/stress/stress.json", "{");
     assert_eq!(bench.fret(&["report", "out"]).code, Some(0));

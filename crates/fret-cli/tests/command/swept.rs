@@ -139,6 +139,10 @@ fn mistakes_in_a_sweep_are_refused_with_their_places() {
         ("base = 'case.toml'\naxis.x = [0.1]", "unknown key `axis`"),
         ("base = 'case.toml'\n[axes\nx = [0.1]", "many.toml:2"),
         ("base = 'case.toml'\n[[point]]\nx = 1\n[[point]]\ny = 1", "the same keys"),
+        (
+            "base = 'case.toml'\n[axes]\n'load[0].normal_force' = [1.0]\n'load.indent.normal_force' = [2.0]",
+            "`load.indent.normal_force` and `load[0].normal_force` are one place",
+        ),
     ] {
         let answer = bench.file("many.toml", text).fret(&["sweep", "many.toml"]);
         assert_eq!(answer.code, Some(1), "{text}: {}", answer.err);

@@ -8,7 +8,7 @@ use crate::document::{Mistake, Refusal as CaseError};
 use crate::kernel::uniform_response;
 use crate::model::stage::Stage;
 use crate::model::{
-    Beyond, CellMap, Conduction, ContactPair, CoulombFriction, Dimension, Frame, FrictionEvolution, GridSize,
+    Beyond, CellMap, Conduction, ContactPair, CoulombFriction, Dimension, FrictionEvolution, GridSize,
     Heights, HeightsSummary, Integration, Kinematics, LoadStep, MapSummary, Periodicity, Profile,
     ResidualStress, Rig, Scheme, WearRule,
 };
@@ -184,11 +184,6 @@ impl<M, H> Case<M, H> {
     /// Increments of the whole history, at the most.
     pub fn increments(&self) -> usize {
         self.stages.iter().map(Stage::increments_in_all).sum()
-    }
-
-    /// Whether a stage carries the places of the bodies through the grid: what is kept of a cell in one increment is of another place in the next.
-    pub fn places_travel(&self, stage: &Stage<M>) -> bool {
-        self.kinematics.frame == Frame::Contact && stage.rolls()
     }
 }
 

@@ -15,6 +15,10 @@ use crate::model::controls::{BULK_STRESS, FREEDOMS, Kind, ROLL, TANGENTIAL, TILT
 use crate::model::stage::{Course, Stage, StageControl, along_x};
 use crate::model::{Dimension, Frame, Kinematics, Shape};
 
+/// The way out where the state to start from has rolled, in whose frame the history goes on.
+const ROLLED_BEFORE: &str =
+    "start from a state that has not rolled; or roll in the other frame from the beginning on";
+
 /// Refuses what rolling cannot be combined with.
 pub(super) fn rolling(judge: &mut Judge, known: &Known<'_>, kinematics: Kinematics) {
     let loading = known.loading();
@@ -22,7 +26,7 @@ pub(super) fn rolling(judge: &mut Judge, known: &Known<'_>, kinematics: Kinemati
     if kinematics.frame == Frame::Contact {
         beyond_no_map(judge, known);
     }
-    let has_rolled = judge.attachments.start.as_ref().is_some_and(|start| start.roll != [0.0; 2]);
+    let has_rolled = judge.attachments.start.is_some_and(|start| start.roll != [0.0; 2]);
     if !(has_rolled || loading.stages().any(|stage| stage.rolls())) {
         return;
     }
@@ -53,11 +57,12 @@ pub(super) fn rolling(judge: &mut Judge, known: &Known<'_>, kinematics: Kinemati
     if kinematics.frame == Frame::Bodies {
         let tilt = Misfit { freedoms: TILT..BULK_STRESS, motions: false, in_table: "a tilt" };
         let why = "of a contact that rolls, with kinematics.frame = \"bodies\": a tilt is about the middle of the grid, and the contact leaves it";
-        tilt.refuse(judge, loading, why, "[kinematics] frame = \"contact\"");
+        let help = if has_rolled { ROLLED_BEFORE } else { "[kinematics] frame = \"contact\"" };
+        tilt.refuse(judge, loading, why, help);
     }
     steady(judge, loading, kinematics);
     if kinematics.frame == Frame::Contact {
-        in_the_frame_of_the_contact(judge, known.file, loading);
+        in_the_frame_of_the_contact(judge, known.file, (loading, has_rolled));
         maps_that_travel(judge, known, kinematics);
     }
 }
@@ -134,7 +139,11 @@ fn steady(judge: &mut Judge, loading: Loading<'_>, kinematics: Kinematics) {
 }
 
 /// Refuses what is fixed to bodies that travel through the grid.
-fn in_the_frame_of_the_contact(judge: &mut Judge, file: &CaseFile, loading: Loading<'_>) {
+fn in_the_frame_of_the_contact(
+    judge: &mut Judge,
+    file: &CaseFile,
+    (loading, has_rolled): (Loading<'_>, bool),
+) {
     let marched = || loading.stages().filter(|stage| stage.rolls() && !stage.file.controls.are_steady());
     for stage in marched() {
         if matches!(stage.file.increments, IncrementsFile::Auto(_)) {
@@ -146,14 +155,20 @@ fn in_the_frame_of_the_contact(judge: &mut Judge, file: &CaseFile, loading: Load
         }
     }
     // The bodies' frame has no steady state.
-    let help = if loading.is_steady() {
+    let help = if has_rolled {
+        ROLLED_BEFORE
+    } else if loading.is_steady() {
         "roll = a distance in place of \"steady\", and frame = \"bodies\" on a grid that holds all of the way; or leave it out"
     } else {
         "frame = \"bodies\", on a grid that holds all of the way"
     };
     let mut refuse = |span: Option<Range<usize>>, what: &str| {
         if let Some(span) = span {
-            let why = "with kinematics.frame = \"contact\": it would travel through the grid, and out of it";
+            let why = if has_rolled {
+                "with kinematics.frame = \"contact\": the state to start from has rolled, and its places lie elsewhere on the grid"
+            } else {
+                "with kinematics.frame = \"contact\": it would travel through the grid, and out of it"
+            };
             judge.refuse::<()>(span, format!("{what} {why}"), help);
         }
     };

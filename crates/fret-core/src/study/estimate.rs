@@ -119,7 +119,7 @@ pub fn companion(plan: &Plan) -> Result<Plan, ResolutionError> {
         half.increments = plan.case.stages.iter().map(fewest).collect();
     }
     half.planned(plan).map_err(|error| match error {
-        VariationError::PartsOfCells(why) => ResolutionError::PartsOfCells(why),
+        VariationError::PartsOfCells { why, .. } => ResolutionError::PartsOfCells(why),
         _ => ResolutionError::TooCoarse(least, FEWEST_CELLS),
     })
 }

@@ -17,8 +17,13 @@ pub enum VariationError {
     #[error("heights that are given for every cell of one grid have no values on other cells")]
     Heights,
     /// A contact that would roll by parts of cells, in whose frame the grid goes by whole ones.
-    #[error("{0}")]
-    PartsOfCells(String),
+    #[error("{why}")]
+    PartsOfCells {
+        /// What the increments are.
+        why: String,
+        /// What to do.
+        help: &'static str,
+    },
     /// Not enough memory.
     #[error(transparent)]
     Memory(#[from] MemoryError),
@@ -82,8 +87,8 @@ impl Variation {
         for (stage, increments) in case.stages.iter_mut().zip(&self.increments) {
             stage.increments = *increments;
         }
-        if let Some((why, _)) = not_in_whole_cells(&varied.case, &varied.grid) {
-            return Err(VariationError::PartsOfCells(why));
+        if let Some((why, help)) = not_in_whole_cells(&varied.case, &varied.grid) {
+            return Err(VariationError::PartsOfCells { why, help });
         }
         varied.follow()?;
         Ok(varied)
