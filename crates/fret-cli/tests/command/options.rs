@@ -188,7 +188,7 @@ fn answers_about_earlier_results_go_with_them() {
     run();
     assert_eq!(bench.fret(&["stress", "out", "--depths", "5e-6"]).code, Some(0));
     bench
-        .file("out/stress/notes.txt", "mine")
+        .file("out/stress/notes.csv", "mine")
         .file("case.toml", &SPHERE.replace("radius = 10e-3", "radius = 20e-3"));
     run();
     assert_eq!(bench.fret(&["report", "out"]).code, Some(0));
