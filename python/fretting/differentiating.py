@@ -117,7 +117,7 @@ def near_in_words(near: tuple[int, int, int]) -> str:
 
 def vjp(
     case: _case.CaseLike,
-    weights: Mapping[str, float | npt.NDArray[np.float64]],
+    weights: Mapping[str, float | npt.NDArray[np.float64] | npt.NDArray[np.bool_]],
     *,
     by: str | Iterable[str] = (),
     threads: int | None = None,

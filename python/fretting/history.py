@@ -675,7 +675,7 @@ class History:
 
     def vjp(
         self,
-        weights: Mapping[str, float | npt.NDArray[np.float64]],
+        weights: Mapping[str, float | npt.NDArray[np.float64] | npt.NDArray[np.bool_]],
         *,
         by: str | Iterable[str] = (),
         threads: int | None = None,

@@ -6,8 +6,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use faer::Mat;
-use faer::linalg::solvers::Solve;
+use nalgebra::DMatrix;
 
 use super::tensor::StressTensor;
 use crate::kernel::complex::Complex;
@@ -48,9 +47,9 @@ impl EdgeCrack {
             return None;
         }
         // Moments of the weight function with Chebyshev's polynomials.
-        let mut moments = Mat::<f64>::zeros(TERMS, 4);
+        let mut moments = DMatrix::<f64>::zeros(TERMS, 4);
         for (count, part) in [(2 * DISLOCATIONS, 4.0 / 3.0), (DISLOCATIONS, -1.0 / 3.0)] {
-            let (places, weights) = solution(angle, count);
+            let (places, weights) = solution(angle, count)?;
             for (place, weights) in places.iter().zip(weights) {
                 for (row, value) in chebyshev(*place).into_iter().enumerate() {
                     for (column, weight) in weights.as_flattened().iter().enumerate() {
@@ -60,7 +59,7 @@ impl EdgeCrack {
             }
         }
         // The polynomial with these moments under the weight (1 - t)^(-1/2), t = 1 - s^2.
-        let mut gram = Mat::<f64>::zeros(TERMS, TERMS);
+        let mut gram = DMatrix::<f64>::zeros(TERMS, TERMS);
         for (node, weight) in GaussRule::new(2 * TERMS).points {
             let s = 0.5 * (1.0 + node);
             let values = chebyshev(1.0 - s * s);
@@ -70,7 +69,7 @@ impl EdgeCrack {
                 }
             }
         }
-        let found = gram.partial_piv_lu().solve(&moments);
+        let found = gram.lu().solve(&moments)?;
         let of = |column: usize| std::array::from_fn(|row| found[(row, column)]);
         Some(Self { angle, coefficients: [[of(0), of(1)], [of(2), of(3)]] })
     }
@@ -141,15 +140,15 @@ fn chebyshev(t: f64) -> [f64; TERMS] {
     values
 }
 
-/// Points of collocation and weights with so many dislocations on a crack of length 1.
-fn solution(angle: f64, count: usize) -> (Vec<f64>, Vec<[[f64; 2]; 2]>) {
+/// Points of collocation and weights with so many dislocations on a crack of length 1; always there at the angles taken.
+fn solution(angle: f64, count: usize) -> Option<(Vec<f64>, Vec<[[f64; 2]; 2]>)> {
     let n = count as f64;
     let nodes: Vec<f64> = (1..=count).map(|k| ((2 * k - 1) as f64 * PI / (2.0 * n + 1.0)).cos()).collect();
     let places: Vec<f64> =
         (1..=count).map(|k| 0.5 * (1.0 + (2.0 * k as f64 * PI / (2.0 * n + 1.0)).cos())).collect();
     let turn = Complex::new((FRAC_PI_2 - angle).cos(), (FRAC_PI_2 - angle).sin());
     // Rows: tension, then shear at the places; columns: opening, then sliding dislocations.
-    let mut matrix = Mat::<f64>::zeros(2 * count, 2 * count);
+    let mut matrix = DMatrix::<f64>::zeros(2 * count, 2 * count);
     for (j, node) in nodes.iter().enumerate() {
         let at = turn * (0.5 * (1.0 + node));
         let weight = PI * (1.0 + node) / (2.0 * n + 1.0);
@@ -165,19 +164,19 @@ fn solution(angle: f64, count: usize) -> (Vec<f64>, Vec<[[f64; 2]; 2]>) {
         }
     }
     // The density at the tip (Krenk 1975), of each kind.
-    let mut tip = Mat::<f64>::zeros(2 * count, 2);
+    let mut tip = DMatrix::<f64>::zeros(2 * count, 2);
     for k in 1..=count {
         let odd = (2 * k - 1) as f64 / (2.0 * n + 1.0) * PI;
         let value = 2.0 / (2.0 * n + 1.0) * (odd * n).sin() / (0.5 * odd).tan();
         tip[(k - 1, 0)] = value;
         tip[(count + k - 1, 1)] = value;
     }
-    let rows = matrix.transpose().partial_piv_lu().solve(&tip);
+    let rows = matrix.transpose().lu().solve(&tip)?;
     let scale = -PI * 8.0_f64.sqrt();
     let weights = (0..count)
         .map(|i| [0, 1].map(|mode| [scale * rows[(i, mode)], scale * rows[(count + i, mode)]]))
         .collect();
-    (places, weights)
+    Some((places, weights))
 }
 
 /// Traction `tension + i shear` across a line along `turn` at `z`, from the image that frees the surface of a dislocation at `at`;
