@@ -83,6 +83,13 @@ impl Reader<'_> {
                 return Err(self.refusal());
             }
         };
+        let is_case =
+            !table.contains_key("base") && ["grid", "load"].iter().all(|&key| table.contains_key(key));
+        if is_case {
+            let way = "`fret run FILE` solves it; a sweep over it has base = \"FILE\" and [axes]";
+            self.refuse(None, "a case, not a sweep over cases", Some(way));
+            return Err(self.refusal());
+        }
         let mut base = None;
         let mut axes = Vec::new();
         let mut drawn = Drawn::default();

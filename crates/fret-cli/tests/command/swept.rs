@@ -133,6 +133,7 @@ fn mistakes_in_a_sweep_are_refused_with_their_places() {
     for (text, words) in [
         ("base = 'case.toml'", "nothing changes"),
         ("[axes]\n'friction.coefficient' = [0.1]", "no base case"),
+        (SPHERE, "a case, not a sweep over cases"),
         ("base = 'case.toml'\n[axes]\n'load.9.normal_force' = [0.1]", "many.toml:3:25"),
         ("base = 'case.toml'\n[axes]\n'friction.coefficient' = 0.1", "must be a list of at least one value"),
         ("base = 'cas.toml'\n[axes]\nx = [0.1]", "many.toml:1:8"),
@@ -148,6 +149,12 @@ fn mistakes_in_a_sweep_are_refused_with_their_places() {
         assert_eq!(answer.code, Some(1), "{text}: {}", answer.err);
         assert!(answer.err.contains(words), "{text}: {}", answer.err);
     }
+    let refused = bench.fret(&["run", "many.toml"]);
+    assert!(
+        refused.code == Some(1) && refused.err.contains("a sweep over cases, not a case"),
+        "{}",
+        refused.err
+    );
     let good = "base = 'case.toml'\naxes.friction.coefficient = [0.1]";
     let answer = bench.file("many.toml", good).fret(&["sweep", "many.toml", "--out", "."]);
     assert_eq!(answer.code, Some(1));

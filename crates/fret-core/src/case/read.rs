@@ -1,16 +1,21 @@
 //! From text to a case: read in one pass (`document`), then judged (`check`).
 
+use toml::de::DeValue;
+
 use super::attachments::Attachments;
 use super::check;
 use super::definition::Case;
 use super::file::CaseFile;
-use crate::document::{Mistake, Read, Reader, Refusal as CaseError, toml_of, written};
+use crate::document::{Mistake, Read, Reader, Refusal as CaseError, Written, toml_of, written};
 
 /// More mistakes than this are not looked for.
 const MOST_MISTAKES: usize = 30;
 
 pub(super) fn case(text: &str, name: &str, attachments: Attachments<'_>) -> Result<Case, CaseError> {
     let root = written(text, name)?;
+    if let Some(mistake) = of_another_kind(&root) {
+        return Err(CaseError::new(name, text, vec![mistake]));
+    }
     let mut reader = Reader::default();
     let file = CaseFile::read(&root, &mut reader);
     let (mut mistakes, places) = reader.end();
@@ -29,6 +34,17 @@ pub(super) fn case(text: &str, name: &str, attachments: Attachments<'_>) -> Resu
             Err(CaseError::new(name, text, mistakes))
         }
     }
+}
+
+/// A sweep is no case: one mistake, not one of each key.
+fn of_another_kind(root: &Written<'_>) -> Option<Mistake> {
+    let DeValue::Table(keys) = root.get_ref() else { return None };
+    let (base, _) = keys.iter().find(|(key, _)| key.get_ref() == "base")?;
+    let has_none = ["grid", "load"].iter().all(|&key| !keys.contains_key(key));
+    has_none.then(|| {
+        Mistake::new("a sweep over cases, not a case: it has a `base`", "`fret sweep FILE` solves its points")
+            .at(base.span())
+    })
 }
 
 impl Case {

@@ -49,9 +49,8 @@ impl EdgeCrack {
         // Moments of the weight function with Chebyshev's polynomials.
         let mut moments = DMatrix::<f64>::zeros(TERMS, 4);
         for (count, part) in [(2 * DISLOCATIONS, 4.0 / 3.0), (DISLOCATIONS, -1.0 / 3.0)] {
-            let (places, weights) = solution(angle, count)?;
-            for (place, weights) in places.iter().zip(weights) {
-                for (row, value) in chebyshev(*place).into_iter().enumerate() {
+            for (place, weights) in solution(angle, count)? {
+                for (row, value) in chebyshev(place).into_iter().enumerate() {
                     for (column, weight) in weights.as_flattened().iter().enumerate() {
                         moments[(row, column)] += part * weight * value;
                     }
@@ -140,8 +139,8 @@ fn chebyshev(t: f64) -> [f64; TERMS] {
     values
 }
 
-/// Points of collocation and weights with so many dislocations on a crack of length 1; always there at the angles taken.
-fn solution(angle: f64, count: usize) -> Option<(Vec<f64>, Vec<[[f64; 2]; 2]>)> {
+/// Each point of collocation and its weights, with so many dislocations on a crack of length 1; always there at the angles taken.
+fn solution(angle: f64, count: usize) -> Option<Vec<(f64, [[f64; 2]; 2])>> {
     let n = count as f64;
     let nodes: Vec<f64> = (1..=count).map(|k| ((2 * k - 1) as f64 * PI / (2.0 * n + 1.0)).cos()).collect();
     let places: Vec<f64> =
@@ -173,10 +172,8 @@ fn solution(angle: f64, count: usize) -> Option<(Vec<f64>, Vec<[[f64; 2]; 2]>)> 
     }
     let rows = matrix.transpose().lu().solve(&tip)?;
     let scale = -PI * 8.0_f64.sqrt();
-    let weights = (0..count)
-        .map(|i| [0, 1].map(|mode| [scale * rows[(i, mode)], scale * rows[(count + i, mode)]]))
-        .collect();
-    Some((places, weights))
+    let weights = |i: usize| [0, 1].map(|mode| [scale * rows[(i, mode)], scale * rows[(count + i, mode)]]);
+    Some(places.into_iter().enumerate().map(|(i, place)| (place, weights(i))).collect())
 }
 
 /// Traction `tension + i shear` across a line along `turn` at `z`, from the image that frees the surface of a dislocation at `at`;

@@ -71,6 +71,16 @@ fn texts_beyond_any_case_are_refused_before_they_are_walked() {
 }
 
 #[test]
+fn a_sweep_is_told_as_such_not_by_each_of_its_keys() {
+    told(
+        "[base]\nfile = 'case.toml'\n[axes]\n'friction.coefficient' = [0.1]",
+        &[("a sweep over cases, not a case", "base")],
+    );
+    // a key of that name in a case is one that is not known
+    told(&format!("base = 1\n{BALL}"), &[("unknown key `base`", "base")]);
+}
+
+#[test]
 fn mistakes_beyond_the_thirtieth_are_not_looked_for() {
     let unknown =
         |count: usize| (0..count).map(|n| format!("{}_ = 1\n", "z".repeat(n + 20))).collect::<String>();
