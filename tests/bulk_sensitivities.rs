@@ -132,7 +132,7 @@ fn lines_under_bulk_stress_are_differentiated() {
 fn stresses_under_bulk_stress_are_differentiated() {
     for body in ["lower", "upper"] {
         let asked = format!(
-            "[output]\nfields = [\"pressure\", \"shear\"]\n[stress]\nbody = \"{body}\"\ntorsion_limit = 0.1\ntension_limit = 0.15\n"
+            "[output]\nfields = [\"pressure\", \"shear\"]\n[stress]\nbody = \"{body}\"\ndepths = [0.0, 0.2, 0.35]\ntorsion_limit = 0.1\ntension_limit = 0.15\n"
         );
         let text =
             STRETCHED.replace("<rule>", "second_order").replace("[solver]", &format!("{asked}[solver]"));

@@ -9,7 +9,7 @@ use ndarray::Array2;
 /// thread or more, bit by bit.
 #[test]
 fn the_most_severe_cells_are_those_of_all_cells_one_by_one() {
-    let (cells, spacing) = ([70, 61], 0.1);
+    let (cells, spacing) = ([46, 41], 0.15);
     let grid = SurfaceGrid::new(cells, [spacing; 2]).unwrap();
     let material = |young, poisson| ElasticMaterial::new(young, poisson).unwrap();
     let coating = Coating::new(material(4.0, 0.25), 0.5).unwrap();

@@ -9,7 +9,7 @@ use crate::sensitivities::{Written, by_numbers, found, found_along, planned};
 /// A coated body on a spring under an elastic ball, both forces growing, and a cycle; `<stress>`: what is asked about stresses.
 const COATED: &str = r#"
 [grid]
-cells = [24, 24]
+cells = [16, 16]
 size = [3.0, 3.0]
 [upper]
 substrate = { young = <Eu>, poisson = 0.2 }
@@ -84,7 +84,7 @@ fn stresses_at_their_largest_place_are_differentiated() {
 /// differences take longer steps.
 #[test]
 fn fatigue_parameters_at_their_largest_place_are_differentiated() {
-    let text = COATED.replace("<stress>", CONSTANTS);
+    let text = COATED.replace("<stress>", &format!("depths = [0.0, 0.2, 0.35]\n{CONSTANTS}"));
     for (parameters, step, bound) in [
         (&["crossland", "dang_van", "shakedown_strength"][..], 1e-5, 1e-5),
         (&["smith_watson_topper", "fatemi_socie"][..], 1e-4, 1e-4),
@@ -100,7 +100,7 @@ fn fatigue_parameters_at_their_largest_place_are_differentiated() {
 fn ruiz_parameters_at_their_largest_place_are_differentiated() {
     let of = ["cycles[0].fatigue.ruiz_f1", "fatigue.ruiz_f2"].map(str::to_owned);
     for body in ["lower", "upper"] {
-        let text = COATED.replace("<stress>", &format!("body = \"{body}\""));
+        let text = COATED.replace("<stress>", &format!("body = \"{body}\"\ndepths = [0.0]"));
         let worst = worst(&text, &NUMBERS, &of, 1e-5);
         assert!(worst < 1e-5, "{body}: {worst:e}");
     }
