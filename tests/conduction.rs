@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use fret_core::case::Case;
-use fret_core::conduction::{Potential, contact_resistance, surface_temperature};
+use fret_core::conduction::{ConductionError, Potential, contact_resistance, surface_temperature};
 use fret_core::model::{ConductingLayer, Conductor, Periodicity, SurfaceGrid};
 use fret_validation::keeping;
 use ndarray::Array2;
@@ -184,6 +184,27 @@ fn layered_bodies_have_one_temperature_in_contact_and_lose_no_heat() {
     // the fraction is that of the whole: with one body alone it is all or nothing
     let alone = surface_temperature([None, Some(&upper)], &grid, Periodicity::NONE, &heat, &contact).unwrap();
     assert!(alone.into_lower.iter().all(|flux| *flux == 0.0) && alone.rise[0].is_none());
+}
+
+/// Twice the heat is twice the temperature, in numbers whose squares there are none of; what has no number at all is refused.
+#[test]
+fn heat_of_any_size_has_its_temperature_or_is_refused() {
+    let grid = SurfaceGrid::new([16, 16], [0.2, 0.2]).unwrap();
+    let heat = cell_means(&grid, 4, disc);
+    let contact = heat.mapv(|heat| heat > 0.0);
+    let [lower, upper] = [coated(0.2, 0.3, 5.0), coated(40.0, 0.1, 1.0)];
+    let found = |size: f64| {
+        let heat = heat.mapv(|heat| size * heat);
+        surface_temperature([Some(&lower), Some(&upper)], &grid, Periodicity::NONE, &heat, &contact)
+    };
+    let one = found(1.0).unwrap();
+    for exponent in [660, -660] {
+        let size = 2.0_f64.powi(exponent);
+        let other = found(size).unwrap();
+        assert_eq!(other.into_lower, one.into_lower.mapv(|flux| size * flux));
+        assert_eq!(other.largest().0, size * one.largest().0);
+    }
+    assert_eq!(found(1e308).unwrap_err(), ConductionError::Beyond);
 }
 
 #[test]

@@ -69,6 +69,7 @@ pub fn computed(
     let record = HeatRecord {
         status: "computed".to_owned(),
         unfinished: run.unfinished(),
+        units: run.units().cloned(),
         temperature: rise.map(|(record, _)| record),
         resistance,
         wall_s: started.elapsed().as_secs_f64(),
@@ -162,6 +163,9 @@ fn unanswered(folder: &Path, error: &ConductionError) -> Failure {
         ConductionError::Kernel(_) => return Failure::Defect(format!("conduction kernels: {error}")),
         ConductionError::Unsolved(_) => return Failure::Defect(format!("conduction: {error}")),
         ConductionError::Line => "run a contact of finite length: cells = [x, y], and no period or two",
+        ConductionError::Beyond => {
+            "look at [thermal] frequency and at the conductivities, in one set of units"
+        }
         ConductionError::Periodic => {
             "leave [thermal] frequency out: the contact resistance of a period does not need it"
         }
@@ -174,7 +178,7 @@ fn unanswered(folder: &Path, error: &ConductionError) -> Failure {
 fn mean_where_heated(found: &SurfaceTemperature) -> f64 {
     let Some(rise) = found.rise.iter().flatten().next() else { return 0.0 };
     let all = found.heat.sum();
-    if all > 0.0 { (&found.heat * rise).sum() / all } else { 0.0 }
+    if all > 0.0 { found.heat.iter().zip(rise).map(|(heat, rise)| heat / all * rise).sum() } else { 0.0 }
 }
 
 fn fields(path: &Path, run: &Results, found: &SurfaceTemperature) -> Result<(), Failure> {

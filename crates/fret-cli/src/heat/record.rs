@@ -1,5 +1,6 @@
 //! `heat.json`: what is told of heat and current. What is written is what the report reads back; a person and the page read the same lines.
 
+use fret_core::units::Units;
 use serde::{Deserialize, Deserializer, Serialize};
 
 /// All of it.
@@ -9,6 +10,9 @@ pub struct HeatRecord {
     pub status: String,
     /// Why the run is not finished, if it is not.
     pub unfinished: Option<String>,
+    /// Units that the case declares.
+    #[serde(default)]
+    pub units: Option<Units>,
     /// Temperature rise by the friction of the last cycle, where a frequency was given.
     pub temperature: Option<RiseRecord>,
     /// Contact resistances, an entry an increment.

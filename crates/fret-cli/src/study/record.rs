@@ -7,6 +7,7 @@ use fret_core::study::{
     Advice, ClosedForm, Convergence, Form, Judged, Kind, Level, Line, PerQuantity, Place, Quantity,
     Reference, RefinementStudy, Source, StageQuantities,
 };
+use fret_core::units::Units;
 use serde::{Deserialize, Serialize};
 
 /// Something of every quantity of interest, by its name in files.
@@ -19,6 +20,9 @@ pub struct StudyRecord {
     pub status: String,
     /// Title of the case, or the name of its file.
     pub title: String,
+    /// Units that the case declares.
+    #[serde(default)]
+    pub units: Option<Units>,
     /// The closed form, where the case has one.
     pub closed_form: Option<String>,
     /// What the errors are measured by; nothing where nothing is known.
@@ -105,7 +109,7 @@ fn of_quantities<T>(of: impl Fn(Quantity) -> T) -> OfQuantities<T> {
 impl StudyRecord {
     /// A judged study, what is to be chosen, and the levels that were not solved.
     pub fn new(
-        title: &str,
+        (title, units): (&str, Option<&Units>),
         reference: &Reference,
         (study, lines): (&RefinementStudy, &[Line]),
         (advice, choice): (&[Advice], &str),
@@ -123,6 +127,7 @@ impl StudyRecord {
         Self {
             status: "studied".to_owned(),
             title: title.to_owned(),
+            units: units.cloned(),
             closed_form: reference.form().map(|form: &ClosedForm| form.name().to_owned()),
             measured_by: of_quantities(|quantity| reference.source(quantity)),
             references: of_quantities(|quantity| reference.of(quantity).to_vec()),

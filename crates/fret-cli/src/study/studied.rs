@@ -67,7 +67,13 @@ pub fn studied(
         study.resolutions(),
         (dimension, plan.case.cells[1] as f64 / plan.case.cells[0] as f64),
     );
-    let record = StudyRecord::new(title, &reference, (&study, &lines), (&advice, &choice), &unsolved);
+    let record = StudyRecord::new(
+        (title, plan.case.units.as_ref()),
+        &reference,
+        (&study, &lines),
+        (&advice, &choice),
+        &unsolved,
+    );
     let known = ErrorColumn::known(&record.lines);
     let shown = |quantity| known.iter().any(|column| column.is_of(quantity));
     let said = [words::measured_by, words::without_order].map(|of| of(&reference, &shown, dimension));

@@ -95,6 +95,23 @@ fn conductivities_come_from_another_case_where_the_results_have_none() {
     }
 }
 
+/// The rise is linear in the frequency, to the solver's tolerance, up to the largest numbers.
+#[test]
+fn cycles_as_fast_as_numbers_go_heat_in_proportion() {
+    let bench = Bench::new("heat-by-frequency");
+    let [one, other] = ["100.0", "1e300"].map(|frequency| {
+        bench.file("case.toml", &CASE.replace("frequency = 100.0", &format!("frequency = {frequency}")));
+        let run = bench.fret(&["run", "case.toml", "--out", frequency, "--quiet"]);
+        assert_eq!(run.code, Some(0), "{}", run.err);
+        let record: Value =
+            serde_json::from_str(&bench.text(&format!("{frequency}/heat/heat.json"))).unwrap();
+        ["mean_rise", "power"].map(|of| record["temperature"][of].as_f64().unwrap())
+    });
+    for (one, other) in one.into_iter().zip(other) {
+        assert!((other / one * 1e-298 - 1.0).abs() < 1e-10, "{one} {other}");
+    }
+}
+
 #[test]
 fn increments_that_were_not_kept_are_named() {
     let bench = Bench::new("heat-not-kept");

@@ -34,7 +34,8 @@ impl SurfaceTemperature {
 /// surface responses `C1`, `C2` of the lower and the upper body. A body that does not conduct takes none.
 ///
 /// # Errors
-/// In periodic cases and line contacts, where nothing is steady; when neither body conducts.
+/// In periodic cases and line contacts, where nothing is steady; when neither body conducts; when the heat or a temperature is beyond all
+/// numbers.
 pub fn surface_temperature(
     conductors: [Option<&Conductor>; 2],
     grid: &SurfaceGrid,
@@ -44,6 +45,9 @@ pub fn surface_temperature(
 ) -> Result<SurfaceTemperature, ConductionError> {
     if periodic.is_both() {
         return Err(ConductionError::Periodic);
+    }
+    if !heat.sum().is_finite() {
+        return Err(ConductionError::Beyond);
     }
     let shape = heat.dim();
     let all: Vec<f64> = heat.iter().copied().collect();
@@ -56,6 +60,9 @@ pub fn surface_temperature(
             let target = Potential::new([None, Some(upper)], grid, periodic)?.of(&all);
             let contact: Vec<bool> =
                 contact.iter().zip(&all).map(|(touches, heat)| *touches || *heat > 0.0).collect();
+            if !target.iter().all(|value| value.is_finite()) {
+                return Err(ConductionError::Beyond);
+            }
             Potential::new(conductors, grid, periodic)?.flux_for(&target, &contact)?
         }
     };
@@ -63,7 +70,11 @@ pub fn surface_temperature(
     let mut rise = [None, None];
     for (place, flux) in [&into_lower, &into_upper].into_iter().enumerate() {
         if let Some(body) = conductors[place] {
-            rise[place] = Some(field(Potential::new([Some(body), None], grid, periodic)?.of(flux)));
+            let risen = Potential::new([Some(body), None], grid, periodic)?.of(flux);
+            if !risen.iter().all(|rise| rise.is_finite()) {
+                return Err(ConductionError::Beyond);
+            }
+            rise[place] = Some(field(risen));
         }
     }
     Ok(SurfaceTemperature { heat: heat.clone(), into_lower: field(into_lower), rise })

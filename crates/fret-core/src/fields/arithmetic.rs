@@ -33,6 +33,11 @@ impl CellRule<2, 0, 1> for Dot {
     }
 }
 
+/// The power of two nearest below a size; one where there is none.
+pub fn unit_of(size: f64) -> f64 {
+    if size > 0.0 && size.is_finite() { size.log2().floor().exp2() } else { 1.0 }
+}
+
 /// Euclidean norm of a field.
 pub fn norm<N: Number>(a: &[N]) -> f64 {
     dot(a, a).sqrt()

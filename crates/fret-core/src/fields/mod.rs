@@ -15,7 +15,7 @@ pub(crate) mod stored;
 mod tangential;
 mod zeros;
 
-pub use arithmetic::{add_scaled, dot, largest, lower, norm, scale, sum};
+pub use arithmetic::{add_scaled, dot, largest, lower, norm, scale, sum, unit_of};
 pub use dual::Dual;
 pub use each_cell::{CellRule, CellSize, convert, each_cell, largest_of};
 pub use in_plane::InPlane;

@@ -145,12 +145,10 @@ fn steepest(plan: &Plan) -> f64 {
     let [dx, dy] = plan.grid.spacing();
     let slope = |heights: &crate::model::Heights| {
         let depths = heights.depths();
-        let (nx, ny) = depths.dim();
         let (mut sum, mut count) = (0.0, 0_usize);
-        for i in 0..nx.saturating_sub(1) {
-            for j in 0..ny.saturating_sub(1) {
-                let [x, y] = [depths[[i + 1, j]] - depths[[i, j]], depths[[i, j + 1]] - depths[[i, j]]];
-                sum += (x / dx).powi(2) + (y / dy).powi(2);
+        for (row, next) in depths.rows().into_iter().zip(depths.rows().into_iter().skip(1)) {
+            for ((here, along_x), along_y) in row.iter().zip(next).zip(row.iter().skip(1)) {
+                sum += ((along_x - here) / dx).powi(2) + ((along_y - here) / dy).powi(2);
                 count += 1;
             }
         }

@@ -3,7 +3,7 @@
 use super::super::contact_set::ContactSet;
 use super::super::region_fields::RegionFields;
 use crate::compliance::SharedWorkspace;
-use crate::fields::{Number, convert, dot, norm};
+use crate::fields::{Number, convert, dot, norm, unit_of};
 use fret_fft::{PeriodicProduct, SingleProduct};
 
 /// A product of one to three fields that approximates the inverse of an operator.
@@ -12,11 +12,6 @@ pub enum Inverse {
     Double(PeriodicProduct),
     /// In single precision.
     Single(SingleProduct),
-}
-
-/// The power of two nearest below a size; one where there is none.
-pub fn unit_of(size: f64) -> f64 {
-    if size > 0.0 && size.is_finite() { size.log2().floor().exp2() } else { 1.0 }
 }
 
 /// Fields of the region that operators and their inverses work on, in either precision.

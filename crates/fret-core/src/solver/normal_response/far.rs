@@ -5,9 +5,8 @@ use fret_fft::{Block, Convolution, Kernel, Parity, PeriodicProduct, SingleProduc
 use ndarray::{Array2, ArrayView2};
 
 use crate::compliance::{NORMAL_BLOCKS, SharedWorkspace};
-use crate::fields::norm;
+use crate::fields::{norm, unit_of};
 use crate::solver::contact_set::ContactSet;
-use crate::solver::linear::inverse::unit_of;
 
 const BLOCKS: [Block; 1] = NORMAL_BLOCKS;
 /// Points of the coarse grid before the first one that lies on a cell, for interpolation, and behind the last.

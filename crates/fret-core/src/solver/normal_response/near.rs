@@ -2,9 +2,8 @@
 
 use pulp::Arch;
 
-use crate::fields::{in_portions, norm};
+use crate::fields::{in_portions, norm, unit_of};
 use crate::solver::contact_set::ContactSet;
-use crate::solver::linear::inverse::unit_of;
 
 /// Cells that it reaches.
 pub const REACH: usize = 7;
