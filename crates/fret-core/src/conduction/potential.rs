@@ -1,7 +1,6 @@
 //! The potential of a surface by the flux through its cells, and the flux that gives the cells of a contact a potential.
 
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
-use crate::fields::unit_of;
 use crate::kernel::{Components, PairResponse, coefficients_of, symbols_of};
 use crate::model::{Conductor, Dimension, Periodicity, SurfaceGrid};
 use fret_fft::ConvolutionError;
@@ -88,9 +87,7 @@ impl Potential {
     /// # Errors
     /// When the residual does not fall to 1e-11 of the largest potential.
     pub fn flux_for(&mut self, potential: &[f64], contact: &[bool]) -> Result<Vec<f64>, ConductionError> {
-        // In units in which squares are numbers, too.
-        let unit = unit_of(largest(potential));
-        let masked = |value: (&f64, &bool)| if *value.1 { *value.0 / unit } else { 0.0 };
+        let masked = |value: (&f64, &bool)| if *value.1 { *value.0 } else { 0.0 };
         let wanted: Vec<f64> = potential.iter().zip(contact).map(masked).collect();
         let mut flux = vec![0.0; self.cells];
         let mut residual = wanted.clone();
@@ -99,7 +96,7 @@ impl Potential {
         let mut square = dot(&residual, &residual);
         for _ in 0..MOST_ITERATIONS {
             if largest(&residual) <= TOLERANCE * scale {
-                return Ok(flux.iter().map(|flux| unit * flux).collect());
+                return Ok(flux);
             }
             let mut product = self.of(&direction);
             product.iter_mut().zip(contact).filter(|(_, is_in)| !**is_in).for_each(|(value, _)| *value = 0.0);

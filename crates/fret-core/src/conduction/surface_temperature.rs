@@ -3,6 +3,7 @@
 use ndarray::Array2;
 
 use super::potential::{ConductionError, Potential};
+use crate::fields::{largest, unit_of};
 use crate::model::{Conductor, Periodicity, SurfaceGrid};
 
 /// Temperature rise of two surfaces that are heated where they touch, above bodies that are cold far below. Shape `(nx, ny)`.
@@ -46,12 +47,15 @@ pub fn surface_temperature(
     if periodic.is_both() {
         return Err(ConductionError::Periodic);
     }
-    if !heat.sum().is_finite() {
+    let is_number = |field: &Array2<f64>| field.sum().is_finite();
+    if !is_number(heat) {
         return Err(ConductionError::Beyond);
     }
     let shape = heat.dim();
-    let all: Vec<f64> = heat.iter().copied().collect();
-    let field = |values: Vec<f64>| Array2::from_shape_fn(shape, |(i, j)| values[i * shape.1 + j]);
+    // In a unit in which sums and squares are numbers, too.
+    let unit = unit_of(heat.as_slice().map_or(1.0, largest));
+    let all: Vec<f64> = heat.iter().map(|heat| heat / unit).collect();
+    let field = |values: &[f64]| Array2::from_shape_fn(shape, |(i, j)| unit * values[i * shape.1 + j]);
     let into_lower = match conductors {
         [None, None] => return Err(ConductionError::Insulating),
         [Some(_), None] => all.clone(),
@@ -60,9 +64,6 @@ pub fn surface_temperature(
             let target = Potential::new([None, Some(upper)], grid, periodic)?.of(&all);
             let contact: Vec<bool> =
                 contact.iter().zip(&all).map(|(touches, heat)| *touches || *heat > 0.0).collect();
-            if !target.iter().all(|value| value.is_finite()) {
-                return Err(ConductionError::Beyond);
-            }
             Potential::new(conductors, grid, periodic)?.flux_for(&target, &contact)?
         }
     };
@@ -70,12 +71,11 @@ pub fn surface_temperature(
     let mut rise = [None, None];
     for (place, flux) in [&into_lower, &into_upper].into_iter().enumerate() {
         if let Some(body) = conductors[place] {
-            let risen = Potential::new([Some(body), None], grid, periodic)?.of(flux);
-            if !risen.iter().all(|rise| rise.is_finite()) {
-                return Err(ConductionError::Beyond);
-            }
-            rise[place] = Some(field(risen));
+            rise[place] = Some(field(&Potential::new([Some(body), None], grid, periodic)?.of(flux)));
         }
     }
-    Ok(SurfaceTemperature { heat: heat.clone(), into_lower: field(into_lower), rise })
+    if !rise.iter().flatten().all(is_number) {
+        return Err(ConductionError::Beyond);
+    }
+    Ok(SurfaceTemperature { heat: heat.clone(), into_lower: field(&into_lower), rise })
 }
