@@ -160,12 +160,17 @@ fn homogeneous_bodies_share_heat_by_their_conductivities_whatever_the_contact() 
     assert!(one.iter().zip(&other).all(|(one, other)| (one - other).abs() < 1e-9 * one));
 }
 
+/// Heat in the disc where two layered bodies touch, on cells of 0.1.
+fn layered_bodies(cells: usize) -> (SurfaceGrid, Array2<f64>, [Conductor; 2]) {
+    let grid = SurfaceGrid::new([cells; 2], [0.1; 2]).unwrap();
+    let heat = cell_means(&grid, 4, disc);
+    (grid, heat, [coated(0.2, 0.3, 5.0), coated(40.0, 0.1, 1.0)])
+}
+
 #[test]
 fn layered_bodies_have_one_temperature_in_contact_and_lose_no_heat() {
-    let grid = SurfaceGrid::new([32, 32], [0.1, 0.1]).unwrap();
-    let heat = cell_means(&grid, 4, disc);
+    let (grid, heat, [lower, upper]) = layered_bodies(32);
     let contact = heat.mapv(|heat| heat > 0.0);
-    let [lower, upper] = [coated(0.2, 0.3, 5.0), coated(40.0, 0.1, 1.0)];
     let found =
         surface_temperature([Some(&lower), Some(&upper)], &grid, Periodicity::NONE, &heat, &contact).unwrap();
     let [one, other] = found.rise.each_ref().map(|rise| rise.as_ref().unwrap());
@@ -189,10 +194,8 @@ fn layered_bodies_have_one_temperature_in_contact_and_lose_no_heat() {
 /// Twice the heat is twice the temperature, in numbers whose squares there are none of; what has no number at all is refused.
 #[test]
 fn heat_of_any_size_has_its_temperature_or_is_refused() {
-    let grid = SurfaceGrid::new([16, 16], [0.2, 0.2]).unwrap();
-    let heat = cell_means(&grid, 4, disc);
+    let (grid, heat, [lower, upper]) = layered_bodies(24);
     let contact = heat.mapv(|heat| heat > 0.0);
-    let [lower, upper] = [coated(0.2, 0.3, 5.0), coated(40.0, 0.1, 1.0)];
     let found = |size: f64| {
         let heat = heat.mapv(|heat| size * heat);
         surface_temperature([Some(&lower), Some(&upper)], &grid, Periodicity::NONE, &heat, &contact)

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::constant::{cell, cells, line, of_constant};
 use super::identified::Identified;
-use super::keys::{case_with, dotted, value_of};
+use super::keys::{case_with, place_of, value_of};
 use super::record::rows_in_words;
 use crate::failure::Failure;
 use crate::figures::{counted, figure};
@@ -35,10 +35,13 @@ pub fn indentation(
 ) -> Result<Identified, Failure> {
     let case = case_file.case(None)?;
     let keys = &asked.keys;
-    for (k, key) in keys.iter().enumerate() {
-        if keys[..k].iter().any(|other| dotted(other) == dotted(key)) {
+    let mut places = Vec::new();
+    for key in keys {
+        let place = place_of(case_file, key)?;
+        if places.contains(&place) {
             return Err(Failure::call(format!("--fit {key}: named twice"), "name each key once"));
         }
+        places.push(place);
     }
     let named = |key: &String| Ok((key.clone(), value_of(case_file, key)?));
     let numbers = keys.iter().map(named).collect::<Result<_, Failure>>()?;

@@ -1,7 +1,7 @@
 //! Numbers of a case that are fitted, by their keys, such as `lower.coatings[0].young`.
 
 use fret_core::case::{Case, CaseError};
-use toml::Table;
+use toml::{Table, Value};
 
 use crate::failure::Failure;
 use crate::sweep::key;
@@ -9,21 +9,8 @@ use fret_results::CaseFile;
 
 /// The positive number that stands at a key of the case.
 pub fn value_of(case_file: &CaseFile, key: &str) -> Result<f64, Failure> {
-    // A bracket that is not one of a pair around a number.
-    let is_closed = |part: &str| {
-        part.split_once(']').is_some_and(|(index, rest)| {
-            index.parse::<usize>().is_ok()
-                && (rest.is_empty() || rest.starts_with('.'))
-                && !rest.contains(']')
-        })
-    };
-    let mut parts = key.split('[');
-    if parts.next().is_some_and(|first| first.contains(']')) || !parts.all(is_closed) {
-        return Err(unknown(key));
-    }
-    let table: Table = case_file.text.parse().map_err(|_| unknown(key))?;
-    let root = toml::Value::Table(table);
-    let found = dotted(key).split('.').try_fold(&root, |here, part| {
+    let root = Value::Table(read(case_file, key)?);
+    let found = place_of(case_file, key)?.iter().try_fold(&root, |here, part| {
         part.parse::<usize>().map_or_else(|_| here.get(part), |index| here.get(index))
     });
     let value =
@@ -39,9 +26,13 @@ fn unknown(key: &str) -> Failure {
     )
 }
 
-/// A key with numbers in brackets as one with numbers for keys: `lower.coatings[0].young` as `lower.coatings.0.young`.
-pub fn dotted(key: &str) -> String {
-    key.replace('[', ".").replace(']', "")
+/// The place in the case that a key names: alike for all ways to write it.
+pub fn place_of(case_file: &CaseFile, key: &str) -> Result<Vec<String>, Failure> {
+    Ok(key::place(&read(case_file, key)?, key))
+}
+
+fn read(case_file: &CaseFile, key: &str) -> Result<Table, Failure> {
+    case_file.text.parse().map_err(|_| unknown(key))
 }
 
 /// The case with other numbers at keys.
@@ -49,7 +40,7 @@ pub fn case_with(case_file: &CaseFile, numbers: &[(&str, f64)]) -> Result<Case, 
     let refuse = |why: String| CaseError::plain(&case_file.name(), why);
     let mut table: Table = case_file.text.parse().map_err(|_| refuse("no table of keys".to_owned()))?;
     for (name, value) in numbers {
-        key::put(&mut table, name, &toml::Value::Float(*value)).map_err(refuse)?;
+        key::put(&mut table, name, &Value::Float(*value)).map_err(refuse)?;
     }
     let text = toml::to_string(&table).map_err(|error| refuse(error.to_string()))?;
     CaseFile { text, ..case_file.clone() }.case(None)

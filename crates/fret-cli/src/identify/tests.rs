@@ -87,7 +87,17 @@ fn a_key_of_the_case_is_fitted_or_refused() {
     assert!(low < 210e3 && 210e3 < high && high / low < 3.0, "{young}");
     let beside = Beside { folder: PathBuf::new(), contents: Vec::new() };
     let case = CaseFile::of_text("case.toml", CASE.to_owned(), beside);
-    for key in ["lower.substrate.poisson", "title", "nope", "", "load.7.normal_force"] {
+    for key in [
+        "lower.substrate.poisson",
+        "title",
+        "nope",
+        "",
+        "load.7.normal_force",
+        "load[7].normal_force",
+        "lower.substrate.young[0]",
+        "lower.substrate[.young",
+        "lower.substrate].young",
+    ] {
         let refused = identify(("log.csv", LOOP.as_bytes()), &case, &request(key)).unwrap_err();
         assert!(refused.message().contains("the case has no positive number there"), "{refused:?}");
     }

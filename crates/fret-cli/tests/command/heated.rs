@@ -95,7 +95,7 @@ fn conductivities_come_from_another_case_where_the_results_have_none() {
     }
 }
 
-/// The rise is linear in the frequency, to the solver's tolerance, up to the largest numbers.
+/// The rise is linear in the frequency up to the largest numbers: to where the shares of the bodies stop, at 1e-11 of the flux.
 #[test]
 fn cycles_as_fast_as_numbers_go_heat_in_proportion() {
     let bench = Bench::new("heat-by-frequency");

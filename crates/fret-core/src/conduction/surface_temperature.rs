@@ -53,8 +53,11 @@ pub fn surface_temperature(
     }
     let shape = heat.dim();
     // In a unit in which sums and squares are numbers, too.
-    let unit = unit_of(heat.as_slice().map_or(1.0, largest));
-    let all: Vec<f64> = heat.iter().map(|heat| heat / unit).collect();
+    let mut all: Vec<f64> = heat.iter().copied().collect();
+    let unit = unit_of(largest(&all));
+    for heat in &mut all {
+        *heat /= unit;
+    }
     let field = |values: &[f64]| Array2::from_shape_fn(shape, |(i, j)| unit * values[i * shape.1 + j]);
     let into_lower = match conductors {
         [None, None] => return Err(ConductionError::Insulating),
