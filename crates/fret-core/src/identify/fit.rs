@@ -4,7 +4,8 @@
 //! Noise sits in force and displacement: a point's residual is its distance from the loop in units of both, `s_q` and `s_d`, which is
 //! `(Q - Q_l - slope (d - d_l))/sqrt(s_q^2 + (slope s_d)^2)` with the slope at the foot `(d_l, Q_l)` of the point on the loop. (At the
 //! measured displacement in place of that of the foot, noise in the displacement shifts the constants: 2 % of the amplitude, 5 % of the
-//! friction coefficient in partial slip.) Feet are those of the round before. The units are in the ratio of the noise that the
+//! friction coefficient in partial slip.) Feet are those of the round before. Within a round a loop is taken for the coarse one of the same constants
+//! and what this lacks where the round begins (`loops`). The units are in the ratio of the noise that the
 //! signals have from point to point, and as large as the amplitudes. Offsets of both and a drift of the displacement are fitted with the
 //! constants, so that their uncertainty is in the intervals. These are linear about the solution (`intervals`); the error of the grid is not in them.
 //!
@@ -25,16 +26,23 @@ use super::drift::Bend;
 use super::error::{IdentifyError, refused};
 use super::feet::{Feet, Points};
 use super::intervals::{Left, Sureness, sureness};
+use super::loops::{Constants, Loops};
 use super::model::Model;
 use super::start::first_guess;
 use super::turns::{calm_range, noise};
 
-/// Step of the differences by which derivatives by the constants are found, relative.
-const STEP: f64 = 5e-3;
+/// Step of the differences by which derivatives by the constants are found, relative, and how near constants are whose derivatives serve as well.
+const STEP: f64 = 0.02;
 /// Distance of every point from a loop that cannot be solved, in amplitudes: more than from any other.
 const UNSOLVED: f64 = 1e3;
-/// Rounds in which the feet of the points on the loop follow the solution.
-const ROUNDS: usize = 3;
+/// Rounds in which the feet of the points and what coarse loops lack follow the solution, at the most.
+const ROUNDS: usize = 8;
+/// The last round moves the loop by less than this, in parts of what the points are off it and of the amplitudes: root of the mean square.
+const SETTLED: [f64; 2] = [3e-3, 1e-5];
+/// Coarse loops are given up where they lack more than this part of the amplitudes, by the root of the mean square, or where a round moves the loop by
+/// more than the other part of what the one before did.
+const UNLIKE: f64 = 0.05;
+const NEARER: f64 = 0.5;
 /// Noise below this part of the amplitude does not count: what a loop is off is more.
 const QUIET: f64 = 1e-3;
 /// The noise of one signal over that of the other, relative to the amplitudes, at the most.
@@ -110,10 +118,12 @@ fn fit_from<'a>(
         bend_is_fitted: false,
         noises: noises(cycle, units),
         feet: Feet::default(),
-        now: None,
-        loops: RefCell::default(),
+        exact: None,
+        coarse: None,
+        lack: DVector::zeros(cycle.force.len()),
+        loops: Loops::new(model, ((start, model.key().map(|(_, value)| value)), first)),
+        beside: RefCell::default(),
     };
-    fit.now = fit.keep(&fit.parameters, Some(first));
     // The first step is bounded by the size of what it starts from, but for nothing: offsets that are rounding would forbid it.
     let of_note = |offset: f64| if offset.abs() < SLIGHT { 0.0 } else { offset };
     fit.parameters[3] = of_note(f64::midpoint(low, high) / fit.units[0]);
@@ -143,15 +153,22 @@ pub struct Fit<'a> {
     /// Noise of displacement and force over their amplitudes, in their own unit: their squares are two.
     noises: [f64; 2],
     feet: Feet,
-    /// The loop of the parameters.
-    pub now: Option<Rc<Loop>>,
-    /// The loops that were solved, by their constants; `None` where there is no solution. The rounds, and what is asked about the solution after
-    /// them, meet the same ones again.
-    loops: RefCell<Vec<(Constants, Option<Rc<Loop>>)>>,
+    /// The loop of the parameters where a round begins, and at last of the solution.
+    pub exact: Option<Rc<Loop>>,
+    /// The coarse loop of the parameters.
+    coarse: Option<Rc<Loop>>,
+    /// Distances of the points from the exact loop less those from the coarse one, where a round begins.
+    lack: DVector<f64>,
+    loops: Loops<'a>,
+    beside: RefCell<Option<Rc<Beside>>>,
 }
 
-/// Friction, stiffness of the rig and amplitude, and the value of the key.
-type Constants = ([f64; 3], Option<f64>);
+/// The coarse loop of some parameters, and with one of those changed by a step each.
+struct Beside {
+    parameters: DVector<f64>,
+    of: Rc<Loop>,
+    changed: Vec<(f64, Rc<Loop>)>,
+}
 
 impl Fit<'_> {
     /// How far the points lie off the loop, over the amplitudes: root of the mean square.
@@ -160,25 +177,71 @@ impl Fit<'_> {
     }
 
     fn minimized(mut self, name: &str) -> Result<Self, IdentifyError> {
+        let mut last = f64::INFINITY;
         for round in 0..ROUNDS {
-            self.find_feet(round);
+            let before = self.begun(round > 0).ok_or_else(|| self.lost(name))?;
             let (found, report) =
-                LevenbergMarquardt::new().with_ftol(1e-8).with_xtol(1e-6).with_patience(8).minimize(self);
+                LevenbergMarquardt::new().with_ftol(1e-6).with_xtol(1e-4).with_patience(8).minimize(self);
             self = found;
             let is_lost =
                 matches!(report.termination, TerminationReason::User(_) | TerminationReason::Numerical(_));
-            if self.now.is_none() || is_lost {
-                let ([friction, stiffness, amplitude], _) = self.constants(&self.parameters);
-                return Err(refused(
-                    name,
-                    &format!(
-                        "no loop of the case comes near the measured one: the last one tried, with mu = {friction:.3e}, a rig stiffness of {stiffness:.3e} and an amplitude of {amplitude:.3e}, cannot be solved"
-                    ),
-                    "compare bodies, normal force and units of the case with those of the test",
-                ));
+            let after = self.residuals().filter(|_| self.coarse.is_some() && !is_lost);
+            let after = after.ok_or_else(|| self.lost(name))?;
+            let moved = (&after - before).norm();
+            let [of_distance, of_amplitude] = SETTLED;
+            if round > 0
+                && moved < (of_distance * after.norm()).hypot(of_amplitude * (after.len() as f64).sqrt())
+            {
+                break;
             }
+            if round > 1 && moved > NEARER * last {
+                self.give_up_coarse_loops();
+            }
+            last = moved;
         }
+        self.compared().ok_or_else(|| self.lost(name))?;
         Ok(self)
+    }
+
+    /// Where a round begins: the exact loop of the parameters, the feet of the points on it, nearest or at the measured displacements, and what the
+    /// coarse loop lacks. The points' distances.
+    fn begun(&mut self, near: bool) -> Option<DVector<f64>> {
+        self.exact = self.loops.exact(self.constants(&self.parameters));
+        self.feet = Feet::on(self.exact.as_ref()?, &self.points(), self.cycle.turns, self.noises(), near);
+        self.compared()
+    }
+
+    /// The points' distances from the exact loop of the parameters, and what the coarse one lacks, which an unlike one does not replace.
+    fn compared(&mut self) -> Option<DVector<f64>> {
+        let constants = self.constants(&self.parameters);
+        let (exact, coarse) = (self.loops.exact(constants)?, self.loops.coarse(constants));
+        let points = self.points();
+        let off = DVector::from(self.feet.distances(&exact, &points));
+        let lacking = |coarse: &Rc<Loop>| &off - DVector::from(self.feet.distances(coarse, &points));
+        let is_like = |lack: &DVector<f64>| lack.norm() < UNLIKE * (lack.len() as f64).sqrt();
+        let like = coarse.map(|coarse| (lacking(&coarse), coarse)).filter(|(lack, _)| is_like(lack));
+        if like.is_none() {
+            self.give_up_coarse_loops();
+        }
+        let (lack, coarse) = like.unwrap_or_else(|| (DVector::zeros(off.len()), Rc::clone(&exact)));
+        (self.exact, self.coarse, self.lack) = (Some(exact), Some(coarse), lack);
+        Some(off)
+    }
+
+    fn give_up_coarse_loops(&mut self) {
+        self.loops.are_exact = true;
+        self.beside.take();
+    }
+
+    fn lost(&self, name: &str) -> IdentifyError {
+        let ([friction, stiffness, amplitude], _) = self.constants(&self.parameters);
+        refused(
+            name,
+            &format!(
+                "no loop of the case comes near the measured one: the last one tried, with mu = {friction:.3e}, a rig stiffness of {stiffness:.3e} and an amplitude of {amplitude:.3e}, cannot be solved"
+            ),
+            "compare bodies, normal force and units of the case with those of the test",
+        )
     }
 
     /// The place of the bend of the drift among the parameters.
@@ -208,21 +271,29 @@ impl Fit<'_> {
         (constants, self.value.map(|value| value * parameters[6].clamp(-3.0, 3.0).exp()))
     }
 
-    fn solve(&self, parameters: &DVector<f64>) -> Option<Rc<Loop>> {
-        let constants = self.constants(parameters);
-        let known =
-            self.loops.borrow().iter().find(|(known, _)| *known == constants).map(|(_, found)| found.clone());
-        known.unwrap_or_else(|| {
-            let ([friction, stiffness, amplitude], value) = constants;
-            self.keep(parameters, self.model.loop_of(friction, stiffness, amplitude, value).ok())
-        })
-    }
-
-    /// Keeps a loop that was solved.
-    fn keep(&self, parameters: &DVector<f64>, found: Option<Loop>) -> Option<Rc<Loop>> {
-        let found = found.map(Rc::new);
-        self.loops.borrow_mut().push((self.constants(parameters), found.clone()));
-        found
+    /// Coarse loops of parameters near to those of now and beside these.
+    fn loops_beside(&self) -> Option<Rc<Beside>> {
+        let is_near = |beside: &&Rc<Beside>| {
+            self.of_loop().all(|k| (beside.parameters[k] - self.parameters[k]).abs() < STEP)
+        };
+        if let Some(known) = self.beside.borrow().as_ref().filter(is_near) {
+            return Some(Rc::clone(known));
+        }
+        let changed = |k: usize, step: f64| {
+            let mut changed = self.parameters.clone();
+            changed[k] += step;
+            Some((step, self.loops.coarse(self.constants(&changed))?))
+        };
+        let found = Rc::new(Beside {
+            parameters: self.parameters.clone(),
+            of: Rc::clone(self.coarse.as_ref()?),
+            changed: self
+                .of_loop()
+                .map(|k| changed(k, STEP).or_else(|| changed(k, -STEP)))
+                .collect::<Option<_>>()?,
+        });
+        self.beside.replace(Some(Rc::clone(&found)));
+        Some(found)
     }
 
     /// The points without offsets and drift.
@@ -245,15 +316,9 @@ impl Fit<'_> {
         [0, 1].map(|k| self.noises[k] * self.units[k])
     }
 
-    /// The feet of the points on the loop; of the first round, at the measured displacements.
-    fn find_feet(&mut self, round: usize) {
-        if let Some(now) = &self.now {
-            self.feet = Feet::on(now, &self.points(), self.cycle.turns, self.noises(), round > 0);
-        }
-    }
-
-    fn distances(&self, of: &Loop) -> Vec<f64> {
-        self.feet.distances(of, &self.points())
+    /// Distances of the points from the loop that a coarse one stands for.
+    fn distances(&self, of: &Loop) -> DVector<f64> {
+        DVector::from(self.feet.distances(of, &self.points())) + &self.lack
     }
 
     /// Part of every residual's variance that is of the force.
@@ -326,8 +391,8 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Fit<'_> {
     fn set_params(&mut self, parameters: &DVector<f64>) {
         let same = self.of_loop().all(|k| parameters[k] == self.parameters[k]);
         self.parameters.clone_from(parameters);
-        if !same || self.now.is_none() {
-            self.now = self.solve(parameters);
+        if !same || self.coarse.is_none() {
+            self.coarse = self.loops.coarse(self.constants(parameters));
         }
     }
 
@@ -336,27 +401,22 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Fit<'_> {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        let Some(now) = &self.now else {
+        let Some(now) = &self.coarse else {
             // Too long a step, to a contact that the grid does not hold, say: it is taken back.
             return Some(DVector::from_element(self.cycle.force.len(), UNSOLVED));
         };
-        Some(DVector::from_vec(self.distances(now)))
+        Some(self.distances(now))
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
-        let now = self.now.as_ref()?;
-        let here = self.distances(now);
-        let count = here.len();
+        let count = self.cycle.force.len();
         let mut jacobian = DMatrix::zeros(count, self.parameters.len());
-        for k in self.of_loop() {
-            let beside = |step: f64| {
-                let mut beside = self.parameters.clone();
-                beside[k] += step;
-                self.solve(&beside).map(|of| (step, self.distances(&of)))
-            };
-            let (step, there) = beside(STEP).or_else(|| beside(-STEP))?;
+        let beside = self.loops_beside()?;
+        let from = self.distances(&beside.of);
+        for (k, (step, of)) in self.of_loop().zip(&beside.changed) {
+            let to = self.distances(of);
             for row in 0..count {
-                jacobian[(row, k)] = (there[row] - here[row]) / step;
+                jacobian[(row, k)] = (to[row] - from[row]) / step;
             }
         }
         let [length, force] = self.units;

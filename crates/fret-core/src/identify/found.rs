@@ -101,7 +101,7 @@ impl Fit<'_> {
             bend.unwrap_or_else(|| if is_alone { noise.hypot(BENT * self.parameters[4]) } else { 0.0 });
         let sure = self.sureness(bend).ok_or_else(lost)?;
         let half = |k: usize| sure.halves[k];
-        let now = self.now.as_ref().ok_or_else(lost)?;
+        let now = self.exact.as_ref().ok_or_else(lost)?;
         let ([friction, stiffness, amplitude], value) = self.constants(&self.parameters);
         let constant = |name: &str, unit, value: f64, k: usize| {
             let half = half(k);

@@ -3,7 +3,7 @@
 //!
 //! From the ground: `request` and `error`; `log` (which columns there are); `turns` of a signal,
 //! `cycles` (which are whole), `direction`, `drift`; `computed` (a loop between its points), `model` (the loop that the solver computes),
-//! `flanks`, `quantities` (what is read from a cycle); `start`, `intervals`, `feet` (of points on a loop), `fit` (least squares), `found`, `repeated` (over
+//! `flanks`, `quantities` (what is read from a cycle); `start`, `intervals`, `feet` (of points on a loop), `loops` (exact and coarse), `fit` (least squares), `found`, `repeated` (over
 //! the cycles); the answer in `identification`, `conditions` (partial or gross slip, over the cycles). Beside it, for numbers of a case from load over depth, `indentation`: `request`; `load_curve`, `indenter` (the curve that the
 //! solver computes), `log` (which rows are fitted), `start`, `fit` with `feet`, `scaling` and `sureness`, `notes`; the answer in `indentation` itself.
 
@@ -21,6 +21,7 @@ mod identification;
 mod indentation;
 mod intervals;
 mod log;
+mod loops;
 mod model;
 mod quantities;
 mod repeated;

@@ -13,13 +13,18 @@ use crate::plan::Plan;
 use crate::run::{Silent, Simulation};
 
 /// Increments from rest to the first turn, and from one turn to the next; closer to each other near the turns.
-const FIRST: usize = 6;
-const HALF: usize = 24;
+const INCREMENTS: [usize; 2] = [6, 24];
+/// The same of coarse loops.
+const FEW_INCREMENTS: [usize; 2] = [3, 12];
+/// Cells of coarse loops along each side, at the least.
+const FEW_CELLS: usize = 16;
 
 /// What the loops are computed from.
 pub struct Model<'a> {
     case: Case,
     key: Option<Key<'a>>,
+    increments: [usize; 2],
+    coarse: Option<Box<Model<'a>>>,
 }
 
 impl<'a> Model<'a> {
@@ -31,7 +36,23 @@ impl<'a> Model<'a> {
         let mut case = reduced(case)?;
         // The same cells for all values of the constants, so that nothing but these changes the loop.
         case.size = GridSize::Given(Plan::new(case.clone())?.grid.size());
-        Ok(Self { case, key })
+        let mut coarse = case.clone();
+        coarse.cells = case.cells.map(|cells| (cells / 2).max(FEW_CELLS).min(cells));
+        let of = |case| Self { case, key, increments: INCREMENTS, coarse: None };
+        // A map of heights may need its cells.
+        let is_one = Plan::new(coarse.clone()).is_ok();
+        Ok(if is_one { of(case).with_coarse(of(coarse)) } else { of(case) })
+    }
+
+    /// The model with the coarse loops of another one.
+    pub fn with_coarse(self, coarse: Self) -> Self {
+        let coarse = Self { increments: FEW_INCREMENTS, coarse: None, ..coarse };
+        Self { coarse: Some(Box::new(coarse)), ..self }
+    }
+
+    /// The same on fewer cells and in fewer increments, at about a tenth of the price: what loops differ by, not what they are.
+    pub fn coarse(&self) -> &Self {
+        self.coarse.as_deref().unwrap_or(self)
     }
 
     /// The value that the case has for the key that is fitted.
@@ -61,14 +82,15 @@ impl<'a> Model<'a> {
         let compliance = 1.0 / stiffness;
         case.rig = Some(Rig { normal: case.springs().normal, tangential: [compliance; 2] });
         let pressing: usize = case.stages.iter().map(Stage::increments_in_all).sum();
-        let mut path: Vec<f64> = (1..=FIRST).map(|k| amplitude * k as f64 / FIRST as f64).collect();
-        let wave = |k: usize| (PI * k as f64 / HALF as f64).cos();
-        path.extend((1..=HALF).map(|k| amplitude * wave(k)));
-        path.extend((1..=HALF).map(|k| -amplitude * wave(k)));
+        let [first, half] = self.increments;
+        let mut path: Vec<f64> = (1..=first).map(|k| amplitude * k as f64 / first as f64).collect();
+        let wave = |k: usize| (PI * k as f64 / half as f64).cos();
+        path.extend((1..=half).map(|k| amplitude * wave(k)));
+        path.extend((1..=half).map(|k| -amplitude * wave(k)));
         case.stages.push(driven(StageControl::FarEnd(Path::Through(path.clone())), path.len()));
         let plan = Plan::new(case)?;
         let history = Simulation::new(&plan).run(&mut Silent)?;
-        let steps = &history.steps[pressing + FIRST - 1..];
+        let steps = &history.steps[pressing + first - 1..];
         let is_line = plan.grid.cells().contains(&1);
         let branch = |sign: f64, steps: &[StepRecord]| {
             let point = |step: &StepRecord| {
@@ -82,7 +104,7 @@ impl<'a> Model<'a> {
             (turn.tangential_force[0] - next.tangential_force[0]) / (turn.shift[0] - next.shift[0]);
         Ok(Loop {
             normal_force: steps[0].normal_force,
-            branches: [branch(1.0, &steps[..=HALF]), branch(-1.0, &steps[HALF..])],
+            branches: [branch(1.0, &steps[..=half]), branch(-1.0, &steps[half..])],
             contact_stiffness,
             slides: steps.iter().any(|step| step.stick_cells == 0),
             slips: steps.iter().any(|step| step.stick_cells < step.contact_cells),

@@ -104,7 +104,7 @@ fn intervals_hold_beyond_independent_noise() {
     }
 }
 
-/// The promise of the page, and its table: 317 of 336 for friction, 327 for the stiffness when it was written. 24 logs each, of triangles and
+/// The promise of the page, and its table: 317 of 336 for friction, 329 for the stiffness when it was written. 24 logs each, of triangles and
 /// sines; 95 % of 24 are 23, and fewer than 20 happen once in a hundred.
 #[test]
 #[ignore = "long: three hundred identifications"]
