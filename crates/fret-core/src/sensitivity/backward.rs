@@ -149,7 +149,7 @@ pub(super) fn backward(
         let record = &steps[number].record;
         let increment = Increment::new(scene, (record, load), now, before);
         let own = operators.self_influence();
-        let near = cells_near_events((scene, now), &increment.contact, [own.normal, own.tangential]);
+        let near = cells_near_events(now, &increment.contact, [own.normal, own.tangential]);
         // The earliest of those with as many, as forward.
         if let Some(near) = NearEvents::of((scene, now, number), near.len())
             && near.cells >= most.map_or(0, |most| most.cells)

@@ -3,7 +3,7 @@
 use super::cell::Shear;
 use super::contact::Contact;
 use super::scene::Scene;
-use super::solved::{Solved, deep_by};
+use super::solved::Solved;
 use crate::fields::length;
 use crate::model::Zone;
 use crate::solver::ContactSet;
@@ -32,14 +32,9 @@ pub(super) enum SideOfEvents {
 }
 
 /// Cells of an increment within a millionth of opening, touching, slipping or coming to rest, and what they would do then.
-pub(super) fn cells_near_events(
-    (scene, solved): (&Scene<'_>, &Solved),
-    contact: &Contact<'_>,
-    own: [f64; 2],
-) -> Vec<(usize, Zone)> {
-    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-    let pressure = largest(&mut solved.tractions[0].iter().copied());
-    let bound = largest(&mut contact.bounds.iter().copied());
+pub(super) fn cells_near_events(solved: &Solved, contact: &Contact<'_>, own: [f64; 2]) -> Vec<(usize, Zone)> {
+    let [pressure, bound] =
+        [&solved.tractions[0], &contact.bounds].map(|values| values.iter().copied().fold(0.0, f64::max));
     let other = |(number, cell): (usize, usize)| {
         if solved.tractions[0][cell] < NEAR * pressure {
             return Some((cell, Zone::Open));
@@ -56,12 +51,11 @@ pub(super) fn cells_near_events(
         }
     };
     let mut cells: Vec<(usize, Zone)> = solved.contact.cells().enumerate().filter_map(other).collect();
-    let touches = |(cell, undeformed): (usize, &f64)| {
-        let deep = deep_by(&solved.motions, scene.place(cell));
-        let gap = *undeformed + solved.displacements[0][cell] - deep;
-        (solved.zone_of(cell) == Zone::Open && gap < NEAR * own[0] * pressure).then_some((cell, Zone::Slip))
+    let touches = |(cell, gap): (usize, &f64)| {
+        let near = *gap < NEAR * own[0] * pressure && solved.zone_of(cell) == Zone::Open;
+        near.then_some((cell, Zone::Slip))
     };
-    cells.extend(solved.undeformed.iter().enumerate().filter_map(touches));
+    cells.extend(solved.gap.iter().enumerate().filter_map(touches));
     cells
 }
 

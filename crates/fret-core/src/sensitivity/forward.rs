@@ -116,7 +116,7 @@ pub(super) fn forward(
             let near = if increment.contact.cells.is_empty() {
                 Vec::new()
             } else {
-                cells_near_events((scene, &solved), &increment.contact, [own.normal, own.tangential])
+                cells_near_events(&solved, &increment.contact, [own.normal, own.tangential])
             };
             if let Some(near) = NearEvents::of((scene, &solved, number), near.len())
                 && near.cells > most.map_or(0, |most| most.cells)

@@ -12,7 +12,7 @@ const MOST_STEPS: usize = 400;
 const MOST_ROUNDS: usize = 6;
 /// Relative residual that a round is taken to at the most, and down to which it may be believed without a look at what it leaves: in single and in
 /// double precision.
-const SINGLE: f64 = 3e-6;
+const SINGLE: f64 = 5e-7;
 const DOUBLE: f64 = 1e-11;
 /// So many rounds are believed after one whose count of what it leaves was right, within this factor.
 const BELIEVED: usize = 8;

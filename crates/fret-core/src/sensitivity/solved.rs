@@ -102,8 +102,7 @@ impl Solved {
 
     /// What a cell did.
     pub fn zone_of(&self, cell: usize) -> Zone {
-        let [_, columns] = self.shape();
-        self.zone[[cell / columns, cell % columns]]
+        self.zone.as_slice().map_or(Zone::Open, |zones| zones[cell])
     }
 
     /// Shear of a cell [pressure].
