@@ -4,7 +4,8 @@
 //! It prints the medians of the errors over those of end points, the numbers that are twice as far as by end points (and how many of them are
 //! twice as far as what end points have in the other two counts, too, in proportion: an error of end points that changes its sign is small once),
 //! those that grow with the increments, and the operator applications. `HISTORIES_LIST=1` lists them all. `HISTORIES_AUTO=0.03` asks instead how far
-//! the increments that the program chooses to this tolerance are from the reference.
+//! the increments that the program chooses to this tolerance are from the reference; `HISTORIES_FIRST=4` solves the first increment of pressing
+//! that goes linearly in four parts, by the second order alone.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "its output is the table")]
 
@@ -20,6 +21,8 @@ use rayon::prelude::*;
 const COUNTS: [usize; 3] = [12, 24, 48];
 const FINE: usize = 480;
 const QUANTITIES: [&str; 3] = ["energy", "shift", "shear"];
+/// End points that err by less are right, but for rounding and what the tolerance leaves.
+const ROUNDING: f64 = 1e-6;
 /// Errors below are no matter.
 const SMALL: f64 = 2e-3;
 
@@ -56,9 +59,11 @@ fn row(seed: u64, folder: &Path) -> Result<Row, String> {
         format!("{seed} {:?} {where_}, {} of a cycle's increments to press", history.kind, history.pressing);
     let mut row =
         Row { name, second: Vec::new(), ends: Vec::new(), applications: [0; 2], off_first_law: 0.0 };
+    let first = std::env::var("HISTORIES_FIRST").ok().and_then(|parts| parts.parse().ok());
     for count in COUNTS {
         let text = history.text(count);
-        let (second, ends) = (solved(&text)?, solved(&by_end_points(&text))?);
+        let of_second = first.map_or_else(|| text.clone(), |parts| history.with_first_touch_in(parts, count));
+        let (second, ends) = (solved(&of_second)?, solved(&by_end_points(&text))?);
         row.off_first_law = [&second, &ends]
             .map(|found| off_first_law(found, 0.0))
             .into_iter()
@@ -158,11 +163,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let solved = of_all(first, count, |seed| row(seed, folder));
     println!("{} histories; {COUNTS:?} increments in a cycle", solved.len());
     for (quantity, name) in QUANTITIES.into_iter().enumerate() {
-        let medians = (0..COUNTS.len()).map(|at| {
-            let ratio = |row: &Row| row.second[at][quantity] / row.ends[at][quantity];
-            median(solved.iter().filter(|row| row.ends[at][quantity] > 1e-12).map(ratio).collect())
-        });
-        let medians: Vec<String> = medians.map(|median| format!("{median:.2}")).collect();
+        let medians_above = |least: f64| {
+            let medians = (0..COUNTS.len()).map(|at| {
+                let ratio = |row: &Row| row.second[at][quantity] / row.ends[at][quantity];
+                median(solved.iter().filter(|row| row.ends[at][quantity] > least).map(ratio).collect())
+            });
+            medians.map(|median| format!("{median:.2}")).collect::<Vec<_>>().join(", ")
+        };
         let (mut twice, mut of_all_counts, mut grown) = (Vec::new(), 0, Vec::new());
         for row in &solved {
             for at in 0..COUNTS.len() {
@@ -179,8 +186,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
         }
         println!(
-            "{name}: medians over end points {}; twice {} ({of_all_counts} in all counts), grown {}",
-            medians.join(", "),
+            "{name}: medians over end points {} ({} where these err by more than {ROUNDING:e}); twice {} ({of_all_counts} in all counts), grown {}",
+            medians_above(1e-12),
+            medians_above(ROUNDING),
             twice.len(),
             grown.len()
         );
