@@ -23,6 +23,7 @@ pub struct Loops<'a> {
 impl<'a> Loops<'a> {
     /// Those of a model, of which the exact one of some constants is known.
     pub fn new(model: &'a Model<'a>, (constants, first): (Constants, Loop)) -> Self {
+        // There may be none.
         let are_exact = ptr::eq(model, model.coarse());
         Self { model, are_exact, met: RefCell::new(vec![((true, constants), Some(Rc::new(first)))]) }
     }
