@@ -17,8 +17,11 @@ pub struct Loops<'a> {
     /// Whether exact loops stand for the coarse ones.
     pub are_exact: bool,
     /// Rounds, and what is asked about the solution after them, meet the same ones again. `None` where there is no solution.
-    met: RefCell<Vec<((bool, Constants), Option<Rc<Loop>>)>>,
+    met: RefCell<Vec<(Key, Option<Rc<Loop>>)>>,
 }
+
+/// Whether a loop is exact, and its constants.
+type Key = (bool, Constants);
 
 impl<'a> Loops<'a> {
     /// Those of a model, of which the exact one of some constants is known.
