@@ -5,7 +5,7 @@
 //! `(Q - Q_l - slope (d - d_l))/sqrt(s_q^2 + (slope s_d)^2)` with the slope at the foot `(d_l, Q_l)` of the point on the loop. (At the
 //! measured displacement in place of that of the foot, noise in the displacement shifts the constants: 2 % of the amplitude, 5 % of the
 //! friction coefficient in partial slip.) Feet are those of the round before. Within a round a loop is taken for the coarse one of the same constants
-//! and what this lacks where the round begins (`loops`). The units are in the ratio of the noise that the
+//! and what this lacks where the round begins (`loops`): what is least in the end is the distance from an exact loop, by derivatives of coarse ones. The units are in the ratio of the noise that the
 //! signals have from point to point, and as large as the amplitudes. Offsets of both and a drift of the displacement are fitted with the
 //! constants, so that their uncertainty is in the intervals. These are linear about the solution (`intervals`); the error of the grid is not in them.
 //!
@@ -35,12 +35,12 @@ use super::turns::{calm_range, noise};
 const STEP: f64 = 0.02;
 /// Distance of every point from a loop that cannot be solved, in amplitudes: more than from any other.
 const UNSOLVED: f64 = 1e3;
-/// Rounds in which the feet of the points and what coarse loops lack follow the solution, at the most.
-const ROUNDS: usize = 8;
+/// Rounds in which the feet of the points and what coarse loops lack follow the solution, at the most; and with exact loops alone.
+const ROUNDS: [usize; 2] = [8, 3];
 /// The last round moves the loop by less than this, in parts of what the points are off it and of the amplitudes: root of the mean square.
 const SETTLED: [f64; 2] = [3e-3, 1e-5];
-/// Coarse loops are given up where they lack more than this part of the amplitudes, by the root of the mean square, or where a round moves the loop by
-/// more than the other part of what the one before did.
+/// Coarse loops are given up where they lack more than this part of the amplitudes, by the root of the mean square, where a round moves the loop by
+/// more than the other part of what the one before did, or where one of them cannot be solved.
 const UNLIKE: f64 = 0.05;
 const NEARER: f64 = 0.5;
 /// Noise below this part of the amplitude does not count: what a loop is off is more.
@@ -155,7 +155,7 @@ pub struct Fit<'a> {
     feet: Feet,
     /// The loop of the parameters where a round begins, and at last of the solution.
     pub exact: Option<Rc<Loop>>,
-    /// The coarse loop of the parameters.
+    /// The coarse loop of the parameters, or the exact one in its place.
     coarse: Option<Rc<Loop>>,
     /// Distances of the points from the exact loop less those from the coarse one, where a round begins.
     lack: DVector<f64>,
@@ -176,31 +176,45 @@ impl Fit<'_> {
         self.residuals().map_or(f64::INFINITY, |off| (off.norm_squared() / off.len() as f64).sqrt())
     }
 
-    fn minimized(mut self, name: &str) -> Result<Self, IdentifyError> {
+    /// The solution: by steps of coarse loops, or, where these lead to none, by those of exact ones from the start.
+    fn minimized(self, name: &str) -> Result<Self, IdentifyError> {
+        let start = self.parameters.clone();
+        let (mut fit, mut is_settled) = self.in_rounds();
+        if is_settled != Some(true) && !fit.loops.are_exact() {
+            fit.give_up_coarse_loops();
+            fit.parameters = start;
+            (fit, is_settled) = fit.in_rounds();
+        }
+        if is_settled.is_none() {
+            return Err(fit.lost(name));
+        }
+        Ok(fit)
+    }
+
+    /// Rounds until the loop moves no more, and whether that is so; `None` where a loop cannot be solved.
+    fn in_rounds(mut self) -> (Self, Option<bool>) {
         let mut last = f64::INFINITY;
-        for round in 0..ROUNDS {
-            let before = self.begun(round > 0).ok_or_else(|| self.lost(name))?;
+        let mut is_settled = false;
+        for round in 0..ROUNDS[usize::from(self.loops.are_exact())] {
+            let Some(before) = self.begun(round > 0) else { return (self, None) };
             let (found, report) =
                 LevenbergMarquardt::new().with_ftol(1e-6).with_xtol(1e-4).with_patience(8).minimize(self);
             self = found;
             let is_lost =
                 matches!(report.termination, TerminationReason::User(_) | TerminationReason::Numerical(_));
             let after = self.residuals().filter(|_| self.coarse.is_some() && !is_lost);
-            let after = after.ok_or_else(|| self.lost(name))?;
+            let Some(after) = after else { return (self, None) };
             let moved = (&after - before).norm();
             let [of_distance, of_amplitude] = SETTLED;
-            if round > 0
-                && moved < (of_distance * after.norm()).hypot(of_amplitude * (after.len() as f64).sqrt())
-            {
+            let much = (of_distance * after.norm()).hypot(of_amplitude * (after.len() as f64).sqrt());
+            is_settled = round > 0 && moved < much;
+            if is_settled || !self.loops.are_exact() && round > 1 && moved > NEARER * last {
                 break;
-            }
-            if round > 1 && moved > NEARER * last {
-                self.give_up_coarse_loops();
             }
             last = moved;
         }
-        self.compared().ok_or_else(|| self.lost(name))?;
-        Ok(self)
+        let is_like = self.compared().map(|_| self.loops.lead());
+        (self, is_like.map(|is_like| is_like && is_settled))
     }
 
     /// Where a round begins: the exact loop of the parameters, the feet of the points on it, nearest or at the measured displacements, and what the
@@ -211,25 +225,20 @@ impl Fit<'_> {
         self.compared()
     }
 
-    /// The points' distances from the exact loop of the parameters, and what the coarse one lacks, which an unlike one does not replace.
+    /// The points' distances from the exact loop of the parameters, and what the coarse one lacks; `None` also where that is too much.
     fn compared(&mut self) -> Option<DVector<f64>> {
         let constants = self.constants(&self.parameters);
-        let (exact, coarse) = (self.loops.exact(constants)?, self.loops.coarse(constants));
+        self.exact = self.loops.exact(constants);
+        self.coarse = self.loops.coarse(constants);
         let points = self.points();
-        let off = DVector::from(self.feet.distances(&exact, &points));
-        let lacking = |coarse: &Rc<Loop>| &off - DVector::from(self.feet.distances(coarse, &points));
-        let is_like = |lack: &DVector<f64>| lack.norm() < UNLIKE * (lack.len() as f64).sqrt();
-        let like = coarse.map(|coarse| (lacking(&coarse), coarse)).filter(|(lack, _)| is_like(lack));
-        if like.is_none() {
-            self.give_up_coarse_loops();
-        }
-        let (lack, coarse) = like.unwrap_or_else(|| (DVector::zeros(off.len()), Rc::clone(&exact)));
-        (self.exact, self.coarse, self.lack) = (Some(exact), Some(coarse), lack);
-        Some(off)
+        let [off, of_coarse] = [self.exact.as_ref()?, self.coarse.as_ref()?]
+            .map(|of| DVector::from(self.feet.distances(of, &points)));
+        self.lack = &off - of_coarse;
+        (self.lack.norm() < UNLIKE * (off.len() as f64).sqrt()).then_some(off)
     }
 
     fn give_up_coarse_loops(&mut self) {
-        self.loops.are_exact = true;
+        self.loops.give_up_coarse();
         self.beside.take();
     }
 

@@ -37,11 +37,11 @@ impl<'a> Model<'a> {
         // The same cells for all values of the constants, so that nothing but these changes the loop.
         case.size = GridSize::Given(Plan::new(case.clone())?.grid.size());
         let mut coarse = case.clone();
-        coarse.cells = case.cells.map(|cells| (cells / 2).max(FEW_CELLS).min(cells));
+        if !has_fields(&case) {
+            coarse.cells = case.cells.map(|cells| (cells / 2).max(FEW_CELLS).min(cells));
+        }
         let of = |case| Self { case, key, increments: INCREMENTS, coarse: None };
-        // A map of heights may need its cells.
-        let is_one = Plan::new(coarse.clone()).is_ok();
-        Ok(if is_one { of(case).with_coarse(of(coarse)) } else { of(case) })
+        Ok(of(case).with_coarse(of(coarse)))
     }
 
     /// The model with the coarse loops of another one.
@@ -50,7 +50,7 @@ impl<'a> Model<'a> {
         Self { coarse: Some(Box::new(coarse)), ..self }
     }
 
-    /// The same on fewer cells and in fewer increments, at about a tenth of the price: what loops differ by, not what they are.
+    /// The same in fewer increments and, where nothing belongs to single cells, on fewer of these, at about a tenth of the price: what loops differ by, not what they are.
     pub fn coarse(&self) -> &Self {
         self.coarse.as_deref().unwrap_or(self)
     }
@@ -144,7 +144,7 @@ impl<'a> Model<'a> {
         let mut case = match (self.key, value) {
             (Some(key), Some(value)) => {
                 let mut changed = reduced((key.case_with)(value)?)?;
-                changed.size = self.case.size;
+                (changed.size, changed.cells) = (self.case.size, self.case.cells);
                 changed
             }
             _ => self.case.clone(),
@@ -154,6 +154,12 @@ impl<'a> Model<'a> {
             .with_max_shear_of(&case.friction);
         Ok(case)
     }
+}
+
+/// Whether heights or maps belong to the cells of a case.
+fn has_fields(case: &Case) -> bool {
+    let mut frictions = case.stages.iter().filter_map(|stage| stage.friction.as_ref());
+    !case.profile.heights.is_empty() || case.friction.is_map() || frictions.any(CoulombFriction::is_map)
 }
 
 /// A stage that is driven along x.

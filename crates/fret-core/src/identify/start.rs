@@ -25,7 +25,11 @@ pub fn first_guess(
     let (amplitude, force) = (0.5 * (high - low), 0.5 * (top - bottom));
     let slope = cycle.slope_after_reversal().unwrap_or(force / amplitude);
     let friction = model.friction().unwrap_or(0.5);
-    let mut probe = model.coarse().loop_of(friction, slope, amplitude, None)?;
+    let probed = |amplitude: f64| {
+        let probed = |model: &Model<'_>| model.loop_of(friction, slope, amplitude, None);
+        probed(model.coarse()).or_else(|_| probed(model))
+    };
+    let mut probe = probed(amplitude)?;
     let ratio = force / probe.normal_force;
     if !(FORCES[0]..=FORCES[1]).contains(&ratio) {
         return Err(refused(
@@ -39,8 +43,7 @@ pub fn first_guess(
     }
     if !probe.tells_stiffness() {
         // All of it slides at once: the contact's own stiffness is seen at a force that it carries.
-        probe =
-            model.coarse().loop_of(friction, slope, CARRIED * friction * probe.normal_force / slope, None)?;
+        probe = probed(CARRIED * friction * probe.normal_force / slope)?;
     }
     let own = probe.contact_stiffness;
     let of_unit = "is the unit of the displacement right? --units \"displacement=um\"; and are the moduli of the case in its units?";

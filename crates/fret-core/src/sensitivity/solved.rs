@@ -102,7 +102,8 @@ impl Solved {
 
     /// What a cell did.
     pub fn zone_of(&self, cell: usize) -> Zone {
-        self.zone.as_slice().map_or(Zone::Open, |zones| zones[cell])
+        let [_, columns] = self.shape();
+        self.zone[[cell / columns, cell % columns]]
     }
 
     /// Shear of a cell [pressure].
