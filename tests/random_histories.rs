@@ -134,40 +134,6 @@ impl RandomHistory {
         self.with_increments(&self.head, &|times| count(times).max(1).to_string())
     }
 
-    /// The same with the first increment in so many parts, whose loads grow with their cubes, where pressing goes linearly: then bodies that touch for
-    /// the first time do so over a fifth to a half of the last contact radius.
-    pub fn with_first_touch_in(&self, parts: usize, increments: usize) -> String {
-        let text = self.text(increments);
-        let Some((head, loads)) = text.split_once("[[load]]\n").filter(|_| self.ramp == "linear") else {
-            return text;
-        };
-        let (stage, rest) = loads.split_once("[[load]]\n").unwrap_or((loads, ""));
-        let times = if self.kind == Kind::Ray { 1.0 } else { self.pressing };
-        let count = (times * increments as f64).round();
-        let part_of_force = |line: &str| {
-            let (key, value) = line.split_once(" = ")?;
-            let numbers =
-                value.trim_matches(['[', ']']).split(',').map(|number| number.trim().parse::<f64>());
-            let numbers = numbers.collect::<Result<Vec<_>, _>>().ok().filter(|_| key.ends_with("_force"))?;
-            let numbers: Vec<String> =
-                numbers.into_iter().map(|number| format!("{:e}", number / count)).collect();
-            let numbers = numbers.join(", ");
-            let found = if value.starts_with('[') { format!("[{numbers}]") } else { numbers };
-            Some(format!("{key} = {found}\n"))
-        };
-        let first: String = stage.lines().filter_map(part_of_force).collect();
-        let others: String = stage
-            .lines()
-            .filter(|line| !line.starts_with("increments"))
-            .map(|line| format!("{line}\n"))
-            .collect();
-        let rest = if rest.is_empty() { String::new() } else { format!("[[load]]\n{rest}") };
-        format!(
-            "{head}[[load]]\n{first}increments = {parts}\nramp = \"cubic\"\n[[load]]\n{others}increments = {}\n{rest}",
-            count - 1.0
-        )
-    }
-
     /// The case with increments that the program chooses, to a tolerance.
     pub fn with_chosen_increments(&self, history_tolerance: f64) -> String {
         let solver = format!("[solver]\nhistory_tolerance = {history_tolerance}\n");

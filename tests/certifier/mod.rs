@@ -24,15 +24,32 @@ use slip_path::Past;
 
 pub use certificate::{Certificate, ON_CIRCLE, SAME};
 pub use increment::dissipated;
-pub use run::{Ended, Kept, run_certified};
+pub use run::{Ended, Kept, KeptPart, run_certified};
 
-/// Certificates of a run, increment by increment from the first on.
+/// Certificates of a run, increment by increment from the first on; of one that was solved in parts one of each part.
 ///
 /// # Errors
 /// When a field that has to be judged was not kept.
 pub fn certify(plan: &Plan, run: &[Kept]) -> Result<Vec<Certificate>, String> {
     let mut certifier = Certifier::new(plan);
-    run.iter().map(|kept| certifier.next(&kept.record, &kept.fields)).collect()
+    let mut certificates = Vec::with_capacity(run.len());
+    // Before the first cycle ends.
+    let unworn = plan.case.wear.as_ref().map(|_| Array2::zeros(plan.grid.cells()));
+    let mut worn = unworn.as_ref();
+    for Kept { record, fields, parts } in run {
+        let mut record = record.clone();
+        if let Some((last, others)) = parts.split_last() {
+            for KeptPart { share, record, fields } in others {
+                // Nothing is worn off within an increment.
+                let fields = KeptFields { worn_depth: worn.cloned(), ..fields.clone() };
+                certificates.push(certifier.next((record, *share), &fields)?);
+            }
+            (record.parts, record.work) = (1, last.record.work);
+        }
+        certificates.push(certifier.next((&record, 1.0), fields)?);
+        worn = fields.worn_depth.as_ref();
+    }
+    Ok(certificates)
 }
 
 /// Goes through a run with its operator and what the increment before left.
@@ -81,9 +98,10 @@ struct Before {
     gap: Array2<f64>,
     normal: Array2<f64>,
     energy: f64,
-    /// Stage, number of the increment in it, what it found prescribed, what is prescribed now.
+    /// Stage, number of the increment in it and the share of its way, what the stage found prescribed, what is prescribed now.
     stage: usize,
     k: usize,
+    share: f64,
     found: LoadStep,
     held: LoadStep,
     /// Normal force, tangential forces, moment.
@@ -106,7 +124,7 @@ impl<'a> Certifier<'a> {
             before: Before {
                 slip: [zero(), zero()],
                 shear: [zero(), zero()],
-                worn: None,
+                worn: case.wear.as_ref().map(|_| zero()),
                 pressure: zero(),
                 tangential: [zero(), zero()],
                 approach: 0.0,
@@ -121,6 +139,7 @@ impl<'a> Certifier<'a> {
                 energy: 0.0,
                 stage: usize::MAX,
                 k: 0,
+                share: 1.0,
                 found: free,
                 held: free,
                 reached: [0.0; 4],
@@ -128,11 +147,15 @@ impl<'a> Certifier<'a> {
         }
     }
 
-    /// Judges the next increment, and goes on from it.
+    /// Judges the next increment, or the part of it that ends at a share of its way, and goes on from there.
     ///
     /// # Errors
     /// When pressure, shear, slip, gap or zone was not kept.
-    pub fn next(&mut self, record: &StepRecord, fields: &KeptFields) -> Result<Certificate, String> {
+    pub fn next(
+        &mut self,
+        (record, share): (&StepRecord, f64),
+        fields: &KeptFields,
+    ) -> Result<Certificate, String> {
         let KeptFields {
             pressure: Some(p),
             shear: Some(q),
@@ -145,7 +168,8 @@ impl<'a> Certifier<'a> {
         else {
             return Err(format!("increment {}: a field was not kept", record.increment));
         };
-        let load = self.prescribed(record);
+        let begins_stage = self.before.stage != record.stage;
+        let load = self.prescribed(record.stage, share);
         let case = &self.plan.case;
         let law = case.stages[..=record.stage].iter().rev().find_map(|stage| stage.friction.as_ref());
         let evolved = friction.clone().filter(|_| case.friction_evolution.is_some());
@@ -157,7 +181,7 @@ impl<'a> Certifier<'a> {
             let mut latest_first = case.stages[..=stage].iter().rev();
             latest_first.find_map(|stage| stage.friction.as_ref()).unwrap_or(&case.friction)
         };
-        if self.before.k == 1 && law_of(record.stage) != law_of(record.stage.saturating_sub(1)) {
+        if begins_stage && law_of(record.stage) != law_of(record.stage.saturating_sub(1)) {
             let last = self.past.loads.len().saturating_sub(1);
             self.past.loads.drain(..last);
         }
@@ -237,11 +261,11 @@ impl<'a> Certifier<'a> {
         Ok(certificate)
     }
 
-    /// What the case prescribes for this increment.
-    fn prescribed(&mut self, record: &StepRecord) -> LoadStep {
+    /// What the case prescribes for the next increment of a stage, at a share of its way: that is straight.
+    fn prescribed(&mut self, number: usize, share: f64) -> LoadStep {
         let before = &mut self.before;
-        let stage: &Stage = &self.plan.case.stages[record.stage];
-        if before.stage != record.stage {
+        let stage: &Stage = &self.plan.case.stages[number];
+        if before.stage != number {
             // A control that changes its kind goes on from what was reached.
             let motions = [before.approach, before.shift[0], before.shift[1], before.twist];
             let controls = [&stage.normal, &stage.tangential[0], &stage.tangential[1], &stage.twist];
@@ -270,9 +294,22 @@ impl<'a> Certifier<'a> {
             if let Some(last) = self.past.loads.last_mut() {
                 (last.normal, last.tangential) = (normal, [x, y]);
             }
-            (before.stage, before.k) = (record.stage, 0);
+            (before.stage, before.k, before.share) = (number, 0, 1.0);
         }
-        before.k += 1;
-        stage.load(&before.found, before.k)
+        if before.share >= 1.0 {
+            before.k += 1;
+        }
+        before.share = share;
+        let start = if before.k == 1 { before.found } else { stage.load(&before.found, before.k - 1) };
+        let mut controls = stage.load(&before.found, before.k).controls();
+        for (to, from) in controls.iter_mut().zip(start.controls()).filter(|_| share < 1.0) {
+            let value = from.value() + (to.value() - from.value()) * share;
+            *to = match to {
+                Control::Force(_) => Control::Force(value),
+                Control::Motion(_) => Control::Motion(value),
+                Control::FarEnd(_) => Control::FarEnd(value),
+            };
+        }
+        LoadStep::of(controls)
     }
 }

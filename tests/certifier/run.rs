@@ -6,7 +6,7 @@ use fret_core::case::{Attachments, Case, CaseError};
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::model::MirroredState;
 use fret_core::plan::Plan;
-use fret_core::run::{Iteration, Observer, RunError, Simulation};
+use fret_core::run::{Iteration, Observer, Part, RunError, Simulation};
 use ndarray::Array2;
 
 use super::{Certificate, certify};
@@ -17,6 +17,19 @@ pub struct Kept {
     /// The record.
     pub record: StepRecord,
     /// All fields.
+    pub fields: KeptFields,
+    /// The parts in which it was solved, where there are more than one.
+    pub parts: Vec<KeptPart>,
+}
+
+/// A part of an increment: the share of the way at its end, its record and its kept fields.
+#[derive(Debug, Clone)]
+pub struct KeptPart {
+    /// 1 in the last.
+    pub share: f64,
+    /// The record.
+    pub record: StepRecord,
+    /// All fields but the worn depth.
     pub fields: KeptFields,
 }
 
@@ -60,9 +73,9 @@ pub fn run_certified(text: &str, arrays: &[Array2<f64>]) -> Result<Ended, CaseEr
     let text = format!("{text}[output]\nfields = [\"{}\"{worn}]\nevery = 1\n", fields.join("\", \""));
     let case = Case::from_toml_with(&text, "case.toml", Attachments { arrays, ..Attachments::none() })?;
     let plan = Plan::new(case)?;
-    let mut witness = Witness { run: Vec::new(), iterations: 0 };
+    let mut witness = Witness { run: Vec::new(), parts: Vec::new(), iterations: 0 };
     let error = Simulation::new(&plan).run(&mut witness).err();
-    let Witness { run, iterations } = witness;
+    let Witness { run, iterations, .. } = witness;
     let certificates = certify(&plan, &run).unwrap_or_else(|missing| panic!("{missing}"));
     Ok(Ended { plan, run, certificates, error, iterations })
 }
@@ -70,6 +83,8 @@ pub fn run_certified(text: &str, arrays: &[Array2<f64>]) -> Result<Ended, CaseEr
 /// Keeps every increment.
 struct Witness {
     run: Vec<Kept>,
+    /// Of the increment that is being solved.
+    parts: Vec<KeptPart>,
     iterations: usize,
 }
 
@@ -85,9 +100,23 @@ impl Observer for Witness {
         _: MirroredState<'_>,
         kept: Option<&KeptFields>,
     ) -> ControlFlow<()> {
+        let parts = std::mem::take(&mut self.parts);
         if let Some(fields) = kept {
-            self.run.push(Kept { record: record.clone(), fields: fields.clone() });
+            self.run.push(Kept { record: record.clone(), fields: fields.clone(), parts });
         }
         ControlFlow::Continue(())
+    }
+
+    fn hears_parts(&self) -> bool {
+        true
+    }
+
+    fn passed(&mut self, part: &Part<'_>) {
+        let Part { share, record, kept, .. } = *part;
+        // Those of a way that was given up.
+        self.parts.retain(|known| known.share < share);
+        if let Some(fields) = kept {
+            self.parts.push(KeptPart { share, record: record.clone(), fields: fields.clone() });
+        }
     }
 }

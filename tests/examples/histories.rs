@@ -4,8 +4,7 @@
 //! It prints the medians of the errors over those of end points, the numbers that are twice as far as by end points (and how many of them are
 //! twice as far as what end points have in the other two counts, too, in proportion: an error of end points that changes its sign is small once),
 //! those that grow with the increments, and the operator applications. `HISTORIES_LIST=1` lists them all. `HISTORIES_AUTO=0.03` asks instead how far
-//! the increments that the program chooses to this tolerance are from the reference; `HISTORIES_FIRST=4` solves the first increment of pressing
-//! that goes linearly in four parts, by the second order alone.
+//! the increments that the program chooses to this tolerance are from the reference.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "its output is the table")]
 
@@ -59,11 +58,9 @@ fn row(seed: u64, folder: &Path) -> Result<Row, String> {
         format!("{seed} {:?} {where_}, {} of a cycle's increments to press", history.kind, history.pressing);
     let mut row =
         Row { name, second: Vec::new(), ends: Vec::new(), applications: [0; 2], off_first_law: 0.0 };
-    let first = std::env::var("HISTORIES_FIRST").ok().and_then(|parts| parts.parse().ok());
     for count in COUNTS {
         let text = history.text(count);
-        let of_second = first.map_or_else(|| text.clone(), |parts| history.with_first_touch_in(parts, count));
-        let (second, ends) = (solved(&of_second)?, solved(&by_end_points(&text))?);
+        let (second, ends) = (solved(&text)?, solved(&by_end_points(&text))?);
         row.off_first_law = [&second, &ends]
             .map(|found| off_first_law(found, 0.0))
             .into_iter()

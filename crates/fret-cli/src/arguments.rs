@@ -68,7 +68,7 @@ pub enum Verb {
     /// Refinement study: errors, orders of convergence and times over grids and increments, and which to choose
     Study(StudyArguments),
     /// Exact derivatives of the results by the numbers of the case: what they depend on, and how much. Not covered:
-    /// thinning by wear, debris with a stiffness, hardness, surfaces that move or roll, increments = "auto", graded coatings
+    /// thinning by wear, debris with a stiffness, hardness, surfaces that move or roll, graded coatings
     Sensitivity(SensitivityArguments),
     /// Moved to `cargo xtask extremes`
     #[command(hide = true)]

@@ -22,6 +22,8 @@ use crate::solver::sliding_fraction;
 const MOST_INCREMENTS: usize = 10_000_000;
 /// Bound on the error of the history where it is left to the program.
 const HISTORY_TOLERANCE: f64 = 0.03;
+/// Increments of a stage from which on the one in which bodies touch for the first time is solved in parts: of fewer they would be most of the work.
+const FEWEST_TO_DIVIDE: usize = 8;
 /// Fraction of a cycle for which a trapezoid holds each extreme, where the case does not say.
 const DWELL: f64 = 0.25;
 /// Cycles of a stage, at the most.
@@ -241,6 +243,7 @@ fn stage(
         increments = increments.saturating_mul(columns.values().next().map_or(1, Vec::len));
     }
     let [normal, x, y, twist, tilt_x, tilt_y, lower_x, lower_y, upper_x, upper_y, roll_x, roll_y] = controls;
+    let course = here.course().unwrap_or(Course::Linear);
     let mut stage = Stage {
         name,
         normal,
@@ -253,7 +256,8 @@ fn stage(
         roll_direction,
         increments,
         history_tolerance: auto.then_some(tolerance),
-        course: here.course().unwrap_or(Course::Linear),
+        divides_first_touch: course == Course::Linear && increments >= FEWEST_TO_DIVIDE && !auto,
+        course,
         friction: None,
     };
     let fewest = if file.table.is_none() { stage.fewest_increments() } else { 1 };

@@ -176,6 +176,7 @@ fn driven(control: StageControl, increments: usize) -> Stage {
         roll_direction: along_x(),
         increments,
         history_tolerance: None,
+        divides_first_touch: false,
         course: Course::Linear,
         friction: None,
     }

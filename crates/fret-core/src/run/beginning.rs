@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use super::checkpoint::{Checkpoint, Waypoint};
-use super::observer::{Iteration, Observer};
+use super::observer::{Iteration, Observer, Part};
 use super::run_error::RunError;
 use super::simulation::Simulation;
 use crate::history::{CycleRecord, History, KeptFields, StepRecord};
@@ -74,6 +74,14 @@ impl Observer for Until<'_> {
         kept: Option<&KeptFields>,
     ) -> ControlFlow<()> {
         self.observer.solved(record, state, kept)
+    }
+
+    fn hears_parts(&self) -> bool {
+        self.observer.hears_parts()
+    }
+
+    fn passed(&mut self, part: &Part<'_>) {
+        self.observer.passed(part);
     }
 
     fn leaves_fields(&self) -> bool {

@@ -1,6 +1,7 @@
 //! The journey of a run: stages, increments, cycles, records. The only file that knows all of it.
 
 use std::borrow::Cow;
+use std::cell::RefCell;
 use std::time::Instant;
 
 use ndarray::Array2;
@@ -9,13 +10,13 @@ use super::checkpoint::{Place, Waypoint, solved_state};
 use super::debris::give;
 use super::fretting_loop::{CycleEnd, FrettingLoop, slid};
 use super::moving::{Stepper, upper_wear_over_grid};
-use super::observer::{Iteration, Observer};
+use super::observer::{Iteration, Observer, Part};
 use super::pair_compliance::PairCompliance;
 use super::plastic::plastic;
 use super::plausibility::Gauge;
 use super::recording::{kept, record, tell_rates, whole};
 use super::records::Records;
-use super::refinement::{DivisionError, Refinement, Span, in_halves};
+use super::refinement::{DivisionError, Heard, Refinement, Span, first_touch, in_halves};
 use super::run_error::{RunError, run_error, too_thin};
 use super::steady::Onward;
 use super::stepping::StageSteps;
@@ -26,9 +27,9 @@ use super::wear::{debris, worn};
 use crate::case::{Case, Stage};
 use crate::history::{CycleRecord, History, KeptFields, StepRecord, WornThrough, WornTo};
 use crate::kernel::uniform_response;
-use crate::model::{ContactState, LoadStep, MirroredState, SolvedState};
+use crate::model::{ContactState, CoulombFriction, Integration, LoadStep, MirroredState, SolvedState};
 use crate::plan::{Coupling, Plan};
-use crate::solver::Resultants;
+use crate::solver::{Increment, Resultants};
 
 /// A run on its way.
 pub(super) struct Journey<'a> {
@@ -50,19 +51,31 @@ impl<'a> Journey<'a> {
         &self.plan.case
     }
 
-    /// How the next increment is divided; it is one step where its end does not depend on the way there.
-    fn refinement(&self) -> Option<Refinement> {
-        let stage = &self.case().stages[self.place.stage];
+    /// Whether the end of the next increment depends on the way there.
+    fn depends_on_way(&self, stage: &Stage) -> bool {
+        let sheared = || self.state.shear.iter().flatten().any(|shear| *shear != 0.0);
+        let moves = self.plan.coupling == Coupling::Coupled || stage.is_tangential() || sheared();
+        moves && self.solver.solver.friction().largest() > 0.0
+    }
+
+    /// How the next increment is divided where that is left to the program.
+    fn refinement(&self, stage: &Stage) -> Option<Refinement> {
         let tolerance = stage.history_tolerance?;
-        let friction = self.solver.solver.friction().largest();
-        let shear = self.state.shear.iter().flatten().any(|shear| *shear != 0.0);
-        let depends = self.plan.coupling == Coupling::Coupled || stage.is_tangential() || shear;
-        (friction > 0.0 && depends).then_some(Refinement {
+        self.depends_on_way(stage).then(|| Refinement {
             tolerance,
             residual: self.case().tolerance,
             integration: self.case().integration,
-            friction,
+            friction: self.solver.solver.friction().largest(),
         })
+    }
+
+    /// Whether bodies that are apart are pressed together in the next increment, and that is to be solved in parts.
+    fn touches_first(&self, stage: &Stage) -> bool {
+        stage.divides_first_touch
+            && stage.normal.is_some()
+            && self.case().integration == Integration::SecondOrder
+            && self.depends_on_way(stage)
+            && self.state.pressure.iter().all(|pressure| *pressure <= 0.0)
     }
 
     pub fn through_all_stages(mut self) -> (History, Result<(), RunError>) {
@@ -245,55 +258,75 @@ impl<'a> Journey<'a> {
     ) -> Result<(StepRecord, Option<KeptFields>), RunError> {
         let case = self.case();
         let Place { solved: increment, stage, .. } = self.place;
-        let refinement = self.refinement();
+        let at_work = &case.stages[stage];
+        let (refinement, touches_first) = (self.refinement(at_work), self.touches_first(at_work));
         if let Some(gap) = self.closed_gap(to) {
             return Err(RunError::GapClosed { increment, stage: case.stages[stage].name.clone(), gap });
         }
         let started = Instant::now();
-        let observer = &mut *self.observer;
+        let observer = RefCell::new(&mut *self.observer);
         let failed = |error| run_error(&error, increment, case, stage);
         let mut watch = |iteration: usize, residual: f64| {
             let tolerance = case.tolerance;
-            observer.iterated(&Iteration { increment, stage, iteration, residual, tolerance })
+            observer.borrow_mut().iterated(&Iteration { increment, stage, iteration, residual, tolerance })
         };
-        let state = &self.state;
+        let (state, plan) = (&self.state, self.plan);
+        let setting = (plan.symmetry, case.periodic);
+        let (hears, mut is_divided, mut unkept) = (observer.borrow().hears_parts(), false, None);
+        let mut passed = |share: f64, solved: &Increment, friction: &CoulombFriction| {
+            is_divided |= share < 1.0;
+            if !hears || !is_divided {
+                return;
+            }
+            let record = record(solved, (case.springs(), friction, setting), (increment, stage, 1), 0.0);
+            let fields = || kept(solved, (friction, plan.symmetry), increment, &case.output.fields);
+            match may_keep.then(fields).transpose() {
+                Err(error) => unkept = Some(error),
+                Ok(kept) => {
+                    let state = MirroredState { part: &solved.state, symmetry: plan.symmetry };
+                    let part = Part { share, record: &record, state, kept: kept.as_ref() };
+                    observer.borrow_mut().passed(&part);
+                }
+            }
+        };
         let mut held = *to;
-        let (solved, parts) = match refinement {
-            _ if case.stages[stage].steady => {
-                let (end, cells);
-                let at_work = &case.stages[stage];
-                let (rates, direction) = (at_work.rates(), at_work.roll_direction);
-                let onward = Onward { wanted: to, rates, direction };
-                (end, held, cells) =
-                    self.solver.roll_until_steady(state, onward, &mut watch).map_err(failed)?;
-                (end, cells)
-            }
-            None => {
-                let span = Span { state, from, to };
-                in_halves(&mut self.solver, &mut self.surfaces, span, &mut watch).map_err(failed)?
-            }
-            Some(refinement) => {
-                let span = Span { state, from, to };
-                let divided = refinement
-                    .solve(&mut self.solver, &self.surfaces, span, self.place.parts, &mut watch)
-                    .map_err(|error| match error {
+        let (solver, span) = (&mut self.solver, Span::whole(state, [from, to]));
+        let (solved, parts) = if at_work.steady {
+            let (end, cells);
+            let (rates, direction) = (at_work.rates(), at_work.roll_direction);
+            let onward = Onward { wanted: to, rates, direction };
+            (end, held, cells) = solver.roll_until_steady(state, onward, &mut watch).map_err(failed)?;
+            (end, cells)
+        } else {
+            let heard = &mut Heard { iteration: &mut watch, part: &mut passed };
+            match refinement {
+                None if touches_first => {
+                    first_touch(solver, &mut self.surfaces, span, heard).map_err(failed)?
+                }
+                None => in_halves(solver, &mut self.surfaces, span, heard).map_err(failed)?,
+                Some(refinement) => {
+                    let divided = refinement.solve(solver, &self.surfaces, span, self.place.parts, heard);
+                    let divided = divided.map_err(|error| match error {
                         DivisionError::Unsolved(error) => failed(error),
                         DivisionError::Unresolved { reached, parts } => RunError::HistoryUnresolved {
                             increment,
-                            stage: case.stages[stage].name.clone(),
+                            stage: at_work.name.clone(),
                             reached,
                             tolerance: refinement.tolerance,
                             parts,
                         },
                     })?;
-                self.surfaces = divided.surfaces;
-                self.place.parts = divided.next;
-                (divided.end, divided.parts)
+                    self.surfaces = divided.surfaces;
+                    self.place.parts = divided.next;
+                    (divided.end, divided.parts)
+                }
             }
         };
+        if let Some(error) = unkept {
+            return Err(RunError::OutOfMemory { increment, error });
+        }
         let wall_s = started.elapsed().as_secs_f64();
-        let (friction, symmetry) = (self.solver.solver.friction(), self.plan.symmetry);
-        let setting = (symmetry, case.periodic);
+        let (friction, symmetry) = (self.solver.solver.friction(), plan.symmetry);
         let mut record =
             record(&solved, (case.springs(), friction, setting), (increment, stage, parts), wall_s);
         tell_rates(&mut record, &self.state, &solved.state);

@@ -37,7 +37,7 @@ pub use checkpoint::{Checkpoint, CheckpointError, Waypoint};
 pub(crate) use cycle_reading::{CycleReading, Point};
 pub(crate) use fretting_loop::last_to_slide;
 pub use in_common::{InCommon, beginnings};
-pub use observer::{Iteration, Observer, Silent};
+pub use observer::{Iteration, Observer, Part, Silent};
 pub(crate) use pair_compliance::PairCompliance;
 pub(crate) use rim::OpenRim;
 pub use run_error::RunError;

@@ -21,6 +21,19 @@ pub struct Iteration {
     pub tolerance: f64,
 }
 
+/// A part of an increment, where that is solved in more than one.
+#[derive(Debug, Clone, Copy)]
+pub struct Part<'a> {
+    /// Share of the way of the increment at its end; 1 in the last.
+    pub share: f64,
+    /// What would be recorded of it as an increment: sums of the history end with it, and the work is its own.
+    pub record: &'a StepRecord,
+    /// Its end.
+    pub state: MirroredState<'a>,
+    /// Its fields, where those of the increment may be kept.
+    pub kept: Option<&'a KeptFields>,
+}
+
 /// Hears about a run and may stop it.
 pub trait Observer {
     /// An iteration was done. `Break` stops the run.
@@ -45,6 +58,17 @@ pub trait Observer {
     ) -> ControlFlow<()> {
         let _ = (record, state, kept);
         ControlFlow::Continue(())
+    }
+
+    /// Whether it hears of parts of increments.
+    fn hears_parts(&self) -> bool {
+        false
+    }
+
+    /// A part of an increment is solved. A way through the increment that is given up is followed by another one, whose shares begin anew; the
+    /// increment itself is heard of after its last part.
+    fn passed(&mut self, part: &Part<'_>) {
+        let _ = part;
     }
 
     /// Whether the history is to hold the kept fields. An observer that has done with them once it has heard of them says no.

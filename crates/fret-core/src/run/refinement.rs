@@ -1,5 +1,5 @@
-//! Increments in parts: where the whole is not solved, and where the history is to depend no longer on their size, since the shear
-//! that slip leaves behind in a growing contact is of first order in the increment.
+//! Increments in parts: where the whole is not solved, where bodies touch for the first time, and where the history is to depend no longer on the
+//! size of increments, since the shear that slip leaves behind in a growing contact is of first order in the increment.
 
 use ndarray::Zip;
 
@@ -7,11 +7,13 @@ use super::moving::Stepper;
 use super::slip_increment::SlipIncrement;
 use super::surfaces::Surfaces;
 use crate::history::Work;
-use crate::model::{ContactState, Integration, LoadStep};
+use crate::model::{ContactState, Control, CoulombFriction, Integration, LoadStep};
 use crate::solver::{Increment, IterationCallback, SolveError, SolverMemory};
 
 /// Halvings of a step that is not solved as a whole, at the most.
 const MOST_HALVINGS: u32 = 5;
+/// Parts of the increment in which bodies touch for the first time.
+const OF_FIRST_TOUCH: i32 = 4;
 /// Parts of an increment, at the most.
 const MOST_PARTS: usize = 1024;
 /// Two solutions of one problem differ by at most so many times the bound on their residuals; 100 leaves room for
@@ -21,7 +23,7 @@ const NOISE: f64 = 100.0;
 const FIRST_ORDER: f64 = 1.0;
 const SECOND_ORDER: f64 = 3.0;
 
-/// Where an increment starts and ends.
+/// Where an increment starts and ends, or a part of one.
 #[derive(Debug, Clone, Copy)]
 pub struct Span<'a> {
     /// Tractions and motions at its start.
@@ -30,6 +32,24 @@ pub struct Span<'a> {
     pub from: &'a LoadStep,
     /// What is prescribed at its end.
     pub to: &'a LoadStep,
+    /// Shares of the way of the whole increment at its start and at its end.
+    pub shares: [f64; 2],
+}
+
+impl<'a> Span<'a> {
+    /// A whole increment.
+    pub fn whole(state: &'a ContactState, [from, to]: [&'a LoadStep; 2]) -> Self {
+        Self { state, from, to, shares: [0.0, 1.0] }
+    }
+}
+
+/// Who hears of an increment while it is solved.
+pub struct Heard<'a> {
+    /// Of every iteration.
+    pub iteration: IterationCallback<'a>,
+    /// Of every part that is solved: the share of the way at its end, and the friction in it. A way that is given up is followed by another
+    /// one, whose shares begin anew.
+    pub part: &'a mut dyn FnMut(f64, &Increment, &CoulombFriction),
 }
 
 /// Solves a step; one whose equations are not solved as a whole in two halves, and these again. With it the number of parts; what slip
@@ -41,9 +61,9 @@ pub fn in_halves(
     solver: &mut Stepper<'_>,
     surfaces: &mut Surfaces,
     span: Span<'_>,
-    watch: IterationCallback<'_>,
+    heard: &mut Heard<'_>,
 ) -> Result<(Increment, usize), SolveError> {
-    halved(solver, surfaces, span, MOST_HALVINGS, watch)
+    halved(solver, surfaces, span, MOST_HALVINGS, heard)
 }
 
 fn halved(
@@ -51,16 +71,11 @@ fn halved(
     surfaces: &mut Surfaces,
     span: Span<'_>,
     halvings: u32,
-    watch: IterationCallback<'_>,
+    heard: &mut Heard<'_>,
 ) -> Result<(Increment, usize), SolveError> {
-    match solver.step(span.state, span.to, watch) {
+    match solver.step(span.state, span.to, heard.iteration) {
         Ok(end) => {
-            surfaces.add(SlipIncrement {
-                states: [span.state, &end.state],
-                laws: solver.solver.laws(),
-                integration: surfaces.integration,
-                travels: end.travelled,
-            })?;
+            take(solver, surfaces, span, &end, heard)?;
             Ok((end, 1))
         }
         Err(error) if error.is_of_long_increments() && halvings > 0 && span.from != span.to => {
@@ -68,13 +83,94 @@ fn halved(
             if !solver.may_stop_at(span.state, middle) {
                 return Err(error);
             }
-            let first = Span { to: middle, ..span };
-            let (first, parts) = halved(solver, surfaces, first, halvings - 1, watch)?;
-            let second = Span { state: &first.state, from: middle, to: span.to };
-            let (second, more) = halved(solver, surfaces, second, halvings - 1, watch)?;
+            let [start, end] = span.shares;
+            let half = 0.5 * (start + end);
+            let first = Span { to: middle, shares: [start, half], ..span };
+            let (first, parts) = halved(solver, surfaces, first, halvings - 1, heard)?;
+            let second = Span { state: &first.state, from: middle, to: span.to, shares: [half, end] };
+            let (second, more) = halved(solver, surfaces, second, halvings - 1, heard)?;
             Ok((after(&first, second), parts + more))
         }
         Err(error) => Err(error),
+    }
+}
+
+/// Takes a step that is solved: what its slip does to the surfaces is collected, and it is told of.
+fn take(
+    solver: &Stepper<'_>,
+    surfaces: &mut Surfaces,
+    span: Span<'_>,
+    end: &Increment,
+    heard: &mut Heard<'_>,
+) -> Result<(), SolveError> {
+    surfaces.add(SlipIncrement {
+        states: [span.state, &end.state],
+        laws: solver.solver.laws(),
+        integration: surfaces.integration,
+        travels: end.travelled,
+    })?;
+    let [_, share] = span.shares;
+    (heard.part)(share, end, solver.solver.friction());
+    Ok(())
+}
+
+/// Solves the increment in which bodies touch for the first time, to which they are pressed evenly, in parts in which the contact of two spheres
+/// grows evenly. Nothing is known of what went before the first of them, so that it is of first order, and the smaller it is the
+/// less of the contact keeps its error. It is the first one after which cells stick: where all slip, as a few cells may, the bodies are nowhere in
+/// particular. Where a part is not solved as a whole, or cannot end there, the increment is. With the end the number of parts, as [`in_halves`].
+///
+/// # Errors
+/// As [`in_halves`].
+pub fn first_touch(
+    solver: &mut Stepper<'_>,
+    surfaces: &mut Surfaces,
+    span: Span<'_>,
+    heard: &mut Heard<'_>,
+) -> Result<(Increment, usize), SolveError> {
+    // Of two spheres the contact radius goes with the third root of the force and with the second one of the approach.
+    let power = if matches!(span.to.normal, Control::Force(_)) { 3 } else { 2 };
+    let loads = [1, 2, 3, OF_FIRST_TOUCH].map(|part| {
+        let share = (f64::from(part) / f64::from(OF_FIRST_TOUCH)).powi(power);
+        (share, LoadStep::between(span.from, span.to, share))
+    });
+    let memory = solver.memory().clone();
+    let mut in_vain = Work::default();
+    let mut ends: Vec<Increment> = Vec::with_capacity(loads.len());
+    let mut is_whole = !loads.iter().all(|(_, load)| solver.may_stop_at(span.state, load));
+    for (share, load) in &loads {
+        if is_whole {
+            break;
+        }
+        let state = ends.last().map_or(span.state, |end| &end.state);
+        match solver.step(state, load, heard.iteration) {
+            Ok(slips) if *share < 1.0 && ends.is_empty() && slips.outcome.stick_cells == 0 => {
+                in_vain += slips.work;
+                solver.restore_memory(memory.clone());
+            }
+            Ok(end) => ends.push(end),
+            Err(error) if error.is_of_long_increments() => is_whole = true,
+            Err(error) => return Err(error),
+        }
+    }
+    if is_whole {
+        ends.iter().for_each(|end| in_vain += end.work);
+        solver.restore_memory(memory);
+        let (mut end, parts) = in_halves(solver, surfaces, span, heard)?;
+        end.work += in_vain;
+        return Ok((end, parts));
+    }
+    let parts = ends.len();
+    for (place, (share, load)) in loads[loads.len() - parts..].iter().enumerate() {
+        let state = place.checked_sub(1).map_or(span.state, |before| &ends[before].state);
+        let part = Span { state, to: load, shares: [0.0, *share], ..span };
+        take(solver, surfaces, part, &ends[place], heard)?;
+    }
+    match ends.into_iter().reduce(|first, second| after(&first, second)) {
+        Some(mut end) => {
+            end.work += in_vain;
+            Ok((end, parts))
+        }
+        None => in_halves(solver, surfaces, span, heard),
     }
 }
 
@@ -156,13 +252,13 @@ impl Refinement {
         surfaces: &Surfaces,
         span: Span<'_>,
         parts: usize,
-        watch: IterationCallback<'_>,
+        heard: &mut Heard<'_>,
     ) -> Result<Divided, DivisionError> {
         let memory = solver.memory().clone();
         let mut work = Work::default();
         let mut try_in = |parts: usize| {
             solver.restore_memory(memory.clone());
-            let way = self.way(solver, surfaces.clone(), span, parts, watch);
+            let way = self.way(solver, surfaces.clone(), span, parts, heard);
             if let Ok(way) = &way {
                 work += way.end.work;
             }
@@ -201,14 +297,16 @@ impl Refinement {
         mut surfaces: Surfaces,
         span: Span<'_>,
         parts: usize,
-        watch: IterationCallback<'_>,
+        heard: &mut Heard<'_>,
     ) -> Result<Way, SolveError> {
         let mut from = *span.from;
         let mut steps = 0;
+        let share_of = |part: usize| part as f64 / parts as f64;
         let mut step = |before: &ContactState, part: usize| {
-            let to = LoadStep::between(span.from, span.to, part as f64 / parts as f64);
-            let here = Span { state: before, from: &from, to: &to };
-            let (solved, made) = in_halves(solver, &mut surfaces, here, watch)?;
+            let to = LoadStep::between(span.from, span.to, share_of(part));
+            let here =
+                Span { state: before, from: &from, to: &to, shares: [share_of(part - 1), share_of(part)] };
+            let (solved, made) = in_halves(solver, &mut surfaces, here, heard)?;
             from = to;
             steps += made;
             Ok::<_, SolveError>((self.distance(before, &solved.state), solved))
@@ -290,6 +388,8 @@ mod tests {
     fn a_step_that_asks_for_too_many_changes_of_the_zones_is_solved_in_parts() {
         let friction = CoulombFriction::uniform(0.3).unwrap();
         let go_on: IterationCallback<'_> = &mut |_, _| ControlFlow::Continue(());
+        // Where each part ended.
+        let mut shares = Vec::new();
         let untouched = ContactState::untouched([CELLS; 2]);
         let pressed = load(1.0, 0.0);
         // A solver of so many iterations after the pressing, and where that ended.
@@ -308,13 +408,17 @@ mod tests {
                 let (mut whole, start) = pressed_with(most);
                 whole.step(&start, &pulled, watch).err()?;
                 let (mut halves, start) = pressed_with(most);
-                let span = Span { state: &start, from: &pressed, to: &pulled };
-                let (end, parts) = in_halves(&mut halves, &mut Surfaces::default(), span, watch).ok()?;
+                let span = Span::whole(&start, [&pressed, &pulled]);
+                shares.clear();
+                let part = &mut |share, _: &Increment, _: &CoulombFriction| shares.push(share);
+                let heard = &mut Heard { iteration: watch, part };
+                let (end, parts) = in_halves(&mut halves, &mut Surfaces::default(), span, heard).ok()?;
                 (parts == 2).then_some((pulled, end))
             })
         });
         let (pulled, end) = in_two.expect("iterations too few for a whole step and enough for its halves");
         assert!(end.outcome.residual.largest() < 1e-9);
+        assert_eq!(shares, [0.5, 1.0]);
 
         // The two halves, asked for one by one.
         let mut patient = solver(&friction, 60);

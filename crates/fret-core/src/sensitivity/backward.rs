@@ -34,6 +34,12 @@ pub(super) struct Target {
 }
 
 impl Target {
+    /// The columns of a part of an increment.
+    pub fn of_part(&self, step: &Snapshot) -> impl Iterator<Item = &(usize, Column, f64)> {
+        let (number, ends) = (step.record.increment, step.ends_increment());
+        self.columns.iter().filter(move |(of, column, _)| *of == number && column.is_in_part(ends))
+    }
+
     /// Adds a result that is made of columns, by a weight.
     pub fn add(&mut self, weight: f64, of: Composed) {
         self.value += weight * of.value;
@@ -84,9 +90,9 @@ impl Gathered {
         }
     }
 
-    /// Takes the columns of the objective in an increment.
-    fn take(&mut self, target: &Target, (increment, stage): (usize, usize), solved: &Solved) {
-        for (_, column, weight) in target.columns.iter().filter(|(of, ..)| *of == increment) {
+    /// Takes the columns of the objective in a part of an increment.
+    fn take(&mut self, target: &Target, (step, stage): (&Snapshot, usize), solved: &Solved) {
+        for (_, column, weight) in target.of_part(step) {
             let [coefficient, _] = &mut self.friction[stage];
             Row::new(column, solved).add(*weight, &mut self.changes[0], coefficient);
         }
@@ -137,17 +143,17 @@ pub(super) fn backward(
     let mut gathered: Vec<Gathered> = targets.iter().map(|_| Gathered::nothing(scene, stages)).collect();
     let mut constants = Constants::new(scene, parameters, targets.len())?;
     let mut most: Option<NearEvents> = None;
-    for number in (0..steps.len()).rev() {
-        past.come_to(number, operators)?;
-        let (load, now, before) = past.at(number);
+    for (place, step) in steps.iter().enumerate().rev() {
+        past.come_to(place, operators)?;
+        let (load, now, before) = past.at(place);
+        let number = step.record.increment;
         for (gathered, target) in gathered.iter_mut().zip(targets) {
-            gathered.take(target, (number, load.stage), now);
+            gathered.take(target, (step, load.stage), now);
         }
-        if visit(&steps[number]).is_break() {
+        if visit(step).is_break() {
             return Err(RunError::Interrupted { increment: number }.into());
         }
-        let record = &steps[number].record;
-        let increment = Increment::new(scene, (record, load), now, before);
+        let increment = Increment::new(scene, (step.by_end_points, load), now, before);
         let own = operators.self_influence();
         let near = cells_near_events(now, &increment.contact, [own.normal, own.tangential]);
         // The earliest of those with as many, as forward.
@@ -158,7 +164,7 @@ pub(super) fn backward(
         }
         let other = (side == SideOfEvents::Other && !near.is_empty()).then(|| with_cells(now, &near));
         let increment = match &other {
-            Some(other) => Increment::new(scene, (record, load), other, before),
+            Some(other) => Increment::new(scene, (step.by_end_points, load), other, before),
             None => increment,
         };
         if gathered.iter().all(|gathered| gathered.changes[0].is_none()) {

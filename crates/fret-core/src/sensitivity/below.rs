@@ -12,14 +12,14 @@ use super::snapshot::Snapshot;
 /// The largest values of numbers, called by their names, in a history, and their derivatives.
 pub(super) fn below(
     scene: &Scene<'_>,
-    steps: &[Snapshot],
+    increments: &[&Snapshot],
     numbers: &[(String, Number)],
     parameters: &[Parameter],
 ) -> Result<Vec<Composed>, SensitivityError> {
     if numbers.is_empty() {
         return Ok(Vec::new());
     }
-    let Some(beneath) = Beneath::of(scene.plan, steps, numbers)? else { return Ok(Vec::new()) };
+    let Some(beneath) = Beneath::of(scene.plan, increments, numbers)? else { return Ok(Vec::new()) };
     let found = beneath.largest(numbers)?;
     let of = |((name, number), found): (&(String, Number), Option<Found>)| {
         let what =

@@ -84,13 +84,14 @@ impl<'a> Beneath<'a> {
     /// That of the increments that numbers are asked of; `None` where it is rigid.
     pub fn of(
         plan: &'a Plan,
-        steps: &[Snapshot],
+        increments: &[&Snapshot],
         numbers: &[(String, Number)],
     ) -> Result<Option<Self>, SensitivityError> {
         let side = side_of(plan);
         let Body::Elastic(half_space) = side.of(&plan.case.bodies) else { return Ok(None) };
         let symmetry = plan.symmetry;
-        let most = steps.iter().map(|step| step.pressed().count()).max().unwrap_or(0) * symmetry.copies();
+        let most =
+            increments.iter().map(|step| step.pressed().count()).max().unwrap_or(0) * symmetry.copies();
         let deepest = reach(&plan.grid, plan.case.periodic, most);
         let request: Option<&StressRequest> = plan.case.stress.as_ref();
         let (points, reach) = match request.and_then(|request| request.depths.as_ref()) {
@@ -98,7 +99,7 @@ impl<'a> Beneath<'a> {
             None => (automatic_depths(half_space, deepest, AUTOMATIC), Some(deepest)),
         };
         let is_asked = |increment: usize| numbers.iter().any(|(_, of)| of.increments().contains(&increment));
-        let asked = steps.iter().enumerate().filter(|(increment, _)| is_asked(*increment));
+        let asked = increments.iter().copied().enumerate().filter(|(increment, _)| is_asked(*increment));
         let bytes = memory_of_stress(plan.grid.len(), asked.clone().count());
         memory::check(bytes).map_err(|error| RunError::OutOfMemory { increment: 0, error })?;
         let sign = if side == Side::Lower { 1.0 } else { -1.0 };

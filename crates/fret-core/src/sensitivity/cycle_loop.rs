@@ -57,7 +57,7 @@ struct CycleLoop {
 /// The number of a column of a cycle; `None` where that has none.
 pub(super) fn of_loop(
     scene: &Scene<'_>,
-    (steps, cycle): (&[Snapshot], &CycleRecord),
+    (run, cycle): (&[&Snapshot], &CycleRecord),
     column: &str,
     parameters: &[Parameter],
 ) -> Option<Composed> {
@@ -66,11 +66,11 @@ pub(super) fn of_loop(
     let (first, last) = (cycle.first_increment, cycle.last_increment);
     let increments = || [first.checked_sub(1)].into_iter().chain((first..=last).map(Some));
     let slides: Vec<_> =
-        increments().map(|at| at.filter(|at| *at >= first).and_then(|at| slide(steps, at))).collect();
+        increments().map(|at| at.filter(|at| *at >= first).and_then(|at| slide(run, at))).collect();
     let mut points: Vec<[f64; INPUTS]> = increments()
         .zip(&slides)
         .map(|(at, slides)| {
-            let mut point = at.map_or([0.0; INPUTS], |at| inputs(&steps[at]));
+            let mut point = at.map_or([0.0; INPUTS], |at| inputs(run[at]));
             point[SLID] = slides.map_or(0.0, |(_, [x, y])| x.hypot(y));
             point
         })
@@ -167,9 +167,9 @@ fn inputs(step: &Snapshot) -> [f64; INPUTS] {
 }
 
 /// The cell that was the last to slide in an increment, where all do, and its slip.
-fn slide(steps: &[Snapshot], increment: usize) -> Option<([usize; 2], [f64; 2])> {
-    let after = steps[increment].state();
-    let before = increment.checked_sub(1).map(|before| steps[before].state());
+fn slide(run: &[&Snapshot], increment: usize) -> Option<([usize; 2], [f64; 2])> {
+    let after = run[increment].state();
+    let before = increment.checked_sub(1).map(|before| run[before].state());
     let before = before.unwrap_or_else(|| ContactState::untouched(after.zone.dim().into()));
     last_to_slide(&before, &after)
 }

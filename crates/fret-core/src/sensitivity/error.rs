@@ -29,16 +29,6 @@ pub enum SensitivityError {
         /// What helps.
         advice: &'static str,
     },
-    /// An increment that was solved in parts, of which derivatives would know nothing.
-    #[error(
-        "increment {increment}: solved in {parts} parts, of which no derivatives are taken; give its stage more increments, and no increments = \"auto\""
-    )]
-    Parts {
-        /// Its number, from 0.
-        increment: usize,
-        /// How many.
-        parts: usize,
-    },
     /// A linear problem that was not solved.
     #[error(
         "increment {increment}, derivative {of}: residual {reached:.1e} of the linear equations, required {target:.0e}: the solution may change \

@@ -104,13 +104,14 @@ pub(super) fn forward(
     let mut replay = Replay::new(scene);
     let mut past = [replay.start.clone(), replay.start.clone()];
     let mut most: Option<NearEvents> = None;
-    for (number, step) in steps.iter().enumerate() {
-        let last = number.checked_sub(1).map(|last| &steps[last]);
+    for (place, step) in steps.iter().enumerate() {
+        let last = place.checked_sub(1).map(|last| &steps[last]);
+        let number = step.record.increment;
         let next = replay.next((step, last), past.each_ref().map(Some), (&mut operators, None));
         let stage = next.load.stage;
         let numbers: Vec<_> = courses.iter().map(|course| course.controls(stage)).collect();
         if let Some(solved) = next.solved {
-            let step_and_load = (&step.record, &next.load);
+            let step_and_load = (step.by_end_points, &next.load);
             let increment = Increment::new(scene, step_and_load, &solved, past.each_ref());
             let own = operators.self_influence();
             let near = if increment.contact.cells.is_empty() {

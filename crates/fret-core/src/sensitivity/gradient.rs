@@ -25,7 +25,7 @@ use crate::history::{CycleRecord, KeptFields, StepRecord};
 use crate::machine::memory;
 use crate::model::MirroredState;
 use crate::plan::Plan;
-use crate::run::{Iteration, Observer, PairCompliance, Simulation};
+use crate::run::{Iteration, Observer, PairCompliance, Part, Simulation};
 
 /// Which way derivatives are carried through a history.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -171,26 +171,24 @@ fn derivatives(
     let mut fields = sums.iter().flat_map(|sum| &sum.fields);
     let with_slip =
         objectives.iter().any(Objective::needs_slip) || fields.any(|(_, weights)| weights.is_slip());
-    let mut run = Snapshots { steps: Vec::new(), cycles: Vec::new(), with_slip, observer };
+    let mut run = Snapshots::heard_by(observer, with_slip);
     let pair = Arc::new(PairCompliance::of(plan));
     Simulation::new(plan).with_compliance(Some(Arc::clone(&pair))).run(&mut run)?;
     let Snapshots { mut steps, cycles, observer, .. } = run;
     end_blocks(&mut steps, &cycles);
-    if let Some(step) = steps.iter().find(|step| step.record.parts > 1) {
-        return Err(SensitivityError::Parts { increment: step.record.increment, parts: step.record.parts });
-    }
     check_history(plan, steps.iter().map(|step| step.record.contact_cells))?;
+    let increments: Vec<&Snapshot> = steps.iter().filter(|step| step.ends_increment()).collect();
     let scene = Scene::new(plan, &steps);
     let mut numbers = Vec::new();
     for (name, _) in sums.iter().flat_map(|sum| &sum.parts) {
-        if let Some(number) = Objective::new(name)?.below(name, (steps.len(), &cycles))? {
+        if let Some(number) = Objective::new(name)?.below(name, (increments.len(), &cycles))? {
             numbers.push(((*name).clone(), number));
         }
     }
-    let mut below = below(&scene, &steps, &numbers, &parameters)?.into_iter();
+    let mut below = below(&scene, &increments, &numbers, &parameters)?.into_iter();
     let targets = sums
         .iter()
-        .map(|sum| sum.target((&scene, &parameters), (&steps, &cycles), &mut below))
+        .map(|sum| sum.target((&scene, &parameters), (&increments, &cycles), &mut below))
         .collect::<Result<Vec<_>, _>>()?;
     let tolerance = plan.case.tolerance;
     let mut tell = |step: &Snapshot| {
@@ -200,7 +198,8 @@ fn derivatives(
     // What comes after the last increment that is asked for changes nothing of it, whichever way.
     let asked = targets.iter().flat_map(|target| &target.columns).map(|(increment, ..)| increment + 1).max();
     let packed = steps.iter().map(Snapshot::bytes).sum::<usize>();
-    let steps = &steps[..asked.unwrap_or(0)];
+    let asked = asked.unwrap_or(0);
+    let steps = &steps[..steps.partition_point(|step| step.record.increment < asked)];
     let cheaper = if targets.len() < parameters.len() { Direction::Backward } else { Direction::Forward };
     let backwards = direction.unwrap_or(cheaper) == Direction::Backward;
     let length = length_of_segments(steps.len(), scene.region.len(), plan.memory_bytes);
@@ -231,11 +230,14 @@ fn derivatives(
 
 /// Tells the increments with which a cycle, or a stage without cycles, ends, and for how many cycles it stands.
 pub(super) fn end_blocks(steps: &mut [Snapshot], cycles: &[CycleRecord]) {
-    for number in 0..steps.len() {
-        let stage = steps[number].record.stage;
-        let ends_stage = steps.get(number + 1).is_none_or(|next| next.record.stage != stage);
-        let cycle = cycles.iter().find(|cycle| cycle.last_increment == number);
-        steps[number].block = cycle.map_or(usize::from(ends_stage), |cycle| cycle.stands_for);
+    for place in 0..steps.len() {
+        let StepRecord { stage, increment, .. } = steps[place].record;
+        if !steps[place].ends_increment() {
+            continue;
+        }
+        let ends_stage = steps.get(place + 1).is_none_or(|next| next.record.stage != stage);
+        let cycle = cycles.iter().find(|cycle| cycle.last_increment == increment);
+        steps[place].block = cycle.map_or(usize::from(ends_stage), |cycle| cycle.stands_for);
     }
 }
 
@@ -251,9 +253,7 @@ fn forwards(
     let (near_events, work) =
         forward((scene, pair), (parameters, side), steps, |(step, solved), changes| {
             for (by, target) in found.iter_mut().zip(targets) {
-                let here =
-                    target.columns.iter().filter(|(increment, ..)| *increment == step.record.increment);
-                for (_, column, weight) in here {
+                for (_, column, weight) in target.of_part(step) {
                     let row = Row::new(column, solved);
                     for ((by, change), parameter) in by.iter_mut().zip(changes).zip(parameters) {
                         let [friction, _] = parameter.change_of_friction(&scene.plan.case, step.record.stage);
@@ -271,7 +271,7 @@ impl Sum<'_> {
     fn target(
         &self,
         (scene, parameters): (&Scene<'_>, &[Parameter]),
-        (steps, cycles): (&[Snapshot], &[CycleRecord]),
+        (increments, cycles): (&[&Snapshot], &[CycleRecord]),
         below: &mut impl Iterator<Item = Composed>,
     ) -> Result<Target, SensitivityError> {
         let (of, aside) = (self.of.clone(), vec![0.0; parameters.len()]);
@@ -289,21 +289,21 @@ impl Sum<'_> {
             }
             if let Some((cycle, column)) = objective.of_loop(name, cycles)? {
                 let none = none("this cycle has none: nothing in it moves, or no machine gives");
-                let number = of_loop(scene, (steps, cycle), column, parameters).ok_or_else(none)?;
+                let number = of_loop(scene, (increments, cycle), column, parameters).ok_or_else(none)?;
                 found.add(*weight, number);
                 continue;
             }
             let column = objective.column_of_increments();
-            for (increment, sign) in objective.needs(name, (steps.len(), cycles))? {
+            for (increment, sign) in objective.needs(name, (increments.len(), cycles))? {
                 let Some(increment) = increment else { continue };
-                let value = value_of(&steps[increment].record, column);
+                let value = value_of(&increments[increment].record, column);
                 found.value += sign * weight * value.ok_or_else(none("this increment has none"))?;
                 found.columns.push((increment, Column::Named(column), sign * weight));
             }
         }
         for (name, weights) in &self.fields {
-            let increment = weights.increment(name, steps.len())?;
-            found.value += weights.value(&steps[increment]);
+            let increment = weights.increment(name, increments.len())?;
+            found.value += weights.value(increments[increment]);
             let column = Column::Field(weights.in_region(scene));
             found.columns.extend(weights.increments(increment).map(|at| (at, column.clone(), 1.0)));
         }
@@ -311,13 +311,23 @@ impl Sum<'_> {
     }
 }
 
-/// Takes the increments of a run for later.
+/// Takes the increments of a run for later, each after the parts in which it was solved.
 pub(super) struct Snapshots<'a> {
     pub steps: Vec<Snapshot>,
     pub cycles: Vec<CycleRecord>,
-    /// Whether slip is asked for.
-    pub with_slip: bool,
     pub observer: &'a mut dyn Observer,
+    with_slip: bool,
+    /// Parts of the increment that is being solved, and whether its last one was solved by the rule of end points.
+    parts: Vec<Snapshot>,
+    last_by_end_points: Option<bool>,
+}
+
+impl<'a> Snapshots<'a> {
+    /// Nothing yet; with slip where that is asked for.
+    pub fn heard_by(observer: &'a mut dyn Observer, with_slip: bool) -> Self {
+        let (steps, cycles, parts) = (Vec::new(), Vec::new(), Vec::new());
+        Self { steps, cycles, observer, with_slip, parts, last_by_end_points: None }
+    }
 }
 
 impl Observer for Snapshots<'_> {
@@ -331,9 +341,30 @@ impl Observer for Snapshots<'_> {
         state: MirroredState<'_>,
         kept: Option<&KeptFields>,
     ) -> ControlFlow<()> {
-        let snapshot = Snapshot::of(record, (state.part, self.with_slip), self.steps.last());
+        self.steps.append(&mut self.parts);
+        let mut snapshot = Snapshot::of((record, 1.0), (state.part, self.with_slip), self.steps.last());
+        if let Some(by_end_points) = self.last_by_end_points.take() {
+            snapshot.by_end_points = by_end_points;
+        }
         self.steps.push(snapshot);
         self.observer.solved(record, state, kept)
+    }
+
+    fn hears_parts(&self) -> bool {
+        true
+    }
+
+    fn passed(&mut self, part: &Part<'_>) {
+        let Part { share, record, state, .. } = *part;
+        // Those of a way that was given up.
+        self.parts.retain(|known| known.share < share);
+        if share < 1.0 {
+            let last = self.parts.last().or(self.steps.last());
+            let snapshot = Snapshot::of((record, share), (state.part, self.with_slip), last);
+            self.parts.push(snapshot);
+        } else {
+            self.last_by_end_points = Some(record.work.end_point_increments > 0);
+        }
     }
 
     fn leaves_fields(&self) -> bool {

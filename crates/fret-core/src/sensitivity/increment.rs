@@ -17,7 +17,6 @@ use super::scene::Scene;
 use super::solved::Solved;
 use super::transposed::Transposed;
 use crate::fields::{add_scaled, dot, norm};
-use crate::history::StepRecord;
 use crate::model::Zone;
 use crate::model::controls::FREEDOMS;
 
@@ -48,18 +47,17 @@ pub(super) struct Increment<'a> {
 }
 
 impl<'a> Increment<'a> {
-    /// The increment that led to `now`, under a `load`.
+    /// The increment that led to `now`, under a `load`, by the rule of end points or not.
     pub fn new(
         scene: &'a Scene<'a>,
-        (record, load): (&StepRecord, &'a Load),
+        (by_end_points, load): (bool, &'a Load),
         now: &'a Solved,
         [before, former]: [&'a Solved; 2],
     ) -> Self {
         let law = before.law_at(scene, load.stage);
-        let end_point = record.work.end_point_increments > 0;
         let zones: Vec<Zone> = now.contact.cells().map(|cell| now.zone_of(cell)).collect();
         let contact = (&now.contact, &zones[..]);
-        let rule = Rule::new(scene, (load, end_point), [before, former], contact, Cells::All);
+        let rule = Rule::new(scene, (load, by_end_points), [before, former], contact, Cells::All);
         let contact = Contact::new(scene, (now, before), (load, &law, &rule));
         let after = After::new(scene, [now, before], (&law, &rule));
         let size = now.tractions.iter().map(|part| dot(part, part)).sum::<f64>().sqrt();

@@ -53,9 +53,10 @@ pub(super) struct Prescribed<'a> {
     scene: &'a Scene<'a>,
     held: LoadStep,
     start: LoadStep,
-    /// The stage at work, and how many of its increments have been.
+    /// The stage at work, how many of its increments have begun, and the share of the last one's way that has been.
     stage: Option<usize>,
     increments: usize,
+    share: f64,
 }
 
 /// What an increment prescribes, and what that depends on.
@@ -82,20 +83,26 @@ pub(super) struct Load {
 impl<'a> Prescribed<'a> {
     /// Nothing yet.
     pub fn new(scene: &'a Scene<'a>) -> Self {
-        Self { scene, held: LoadStep::FREE, start: LoadStep::FREE, stage: None, increments: 0 }
+        Self { scene, held: LoadStep::FREE, start: LoadStep::FREE, stage: None, increments: 0, share: 1.0 }
     }
 
-    /// Goes on by an increment of a stage, from a state, what that has reached, and the last load of the part.
+    /// Goes on in a stage to the end of an increment, or to a share of its way, from a state, what that has reached, and the last load in front of
+    /// the mirrors.
     pub fn next(
         &mut self,
-        stage: usize,
+        (stage, share): (usize, f64),
         (state, reached): (&ContactState, &Reached),
         last: Option<&LoadStep>,
     ) -> Load {
         let plan = self.scene.plan;
         let given = &plan.case.stages[stage];
         let begins = self.stage != Some(stage);
-        self.increments = if begins { 1 } else { self.increments + 1 };
+        self.increments = match self.share {
+            _ if begins => 1,
+            done if done >= 1.0 => self.increments + 1,
+            _ => self.increments,
+        };
+        self.share = share;
         self.stage = Some(stage);
         let mut taken = [None; FREEDOMS];
         if begins {
@@ -108,7 +115,17 @@ impl<'a> Prescribed<'a> {
             (self.start, taken) = of_kinds(&self.held, &kinds, 0..reached.len(), reached);
         }
         self.held = given.load(&self.start, self.increments);
-        let (keeps, own) = slopes(given, self.increments);
+        let (mut keeps, mut own) = slopes(given, self.increments);
+        if share < 1.0 {
+            let k = self.increments - 1;
+            let from = if k == 0 { self.start } else { given.load(&self.start, k) };
+            self.held = LoadStep::between(&from, &self.held, share);
+            let (keeps_before, own_before) = slopes(given, k);
+            for (slopes, before) in [(&mut keeps, keeps_before), (&mut own, own_before)] {
+                let both = slopes.iter_mut().zip(before);
+                both.for_each(|(slope, before)| *slope = (1.0 - share) * before + share * *slope);
+            }
+        }
         let symmetry = plan.symmetry;
         let step = if symmetry.any() { symmetry.part_of_load(&self.held, state) } else { self.held };
         let copies = symmetry.copies() as f64;
@@ -130,11 +147,14 @@ impl<'a> Prescribed<'a> {
     }
 }
 
-/// Derivatives of what a stage prescribes at the end of its increment `k`, by where it starts and by the numbers of its controls, in both of
+/// Derivatives of what a stage prescribes at the end of its increment `k`, 0 at its start, by where it starts and by the numbers of its controls, in both of
 /// which it is linear.
 fn slopes(stage: &Stage, k: usize) -> ([f64; FREEDOMS], [f64; FREEDOMS]) {
     let times = stage.times();
     let (mut keeps, mut own) = ([1.0; FREEDOMS], [0.0; FREEDOMS]);
+    if k == 0 {
+        return (keeps, own);
+    }
     for (freedom, control) in stage.by_freedom().into_iter().enumerate() {
         let Some(control) = control else { continue };
         keeps[freedom] = stage.value(&with_number(control, 0.0), 1.0, k, times.as_ref());

@@ -106,8 +106,10 @@ impl<'a> Past<'a> {
         self.here = (segment, Vec::with_capacity(self.length));
         for at in segment * self.length..self.steps.len().min((segment + 1) * self.length) {
             // It was found before.
-            self.go_on(at, operators)
-                .ok_or_else(|| SensitivityError::Operators(format!("increment {at} is not found again")))?;
+            self.go_on(at, operators).ok_or_else(|| {
+                let increment = self.steps[at].record.increment;
+                SensitivityError::Operators(format!("increment {increment} is not found again"))
+            })?;
         }
         Ok(())
     }

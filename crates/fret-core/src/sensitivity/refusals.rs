@@ -36,11 +36,6 @@ pub(super) fn check(plan: &Plan) -> Result<(), SensitivityError> {
         (by_mean_gap, "mean_gap", "prescribe the normal force"),
         (plan.start.is_some(), "a start from another history", "give all stages in one case"),
         (
-            case.stages.iter().any(|stage| stage.history_tolerance.is_some()),
-            "increments = \"auto\"",
-            "give the stages a number of increments",
-        ),
-        (
             !plan.leave_out.takes(Simplification::LayeredResponse),
             "all layers in their place",
             "take the derivatives with the simplifications of the plan",

@@ -1,4 +1,4 @@
-//! A history once more, from the states that its run left: what each increment prescribed, and what was solved.
+//! A history once more, from the states that its run left: what each increment, or part of one, prescribed, and what was solved.
 
 use super::fields::{Fields, zeros};
 use super::loads::{Load, Prescribed};
@@ -43,7 +43,8 @@ impl<'a> Replay<'a> {
         let state = last.map(Snapshot::motions);
         let state = state.as_ref().unwrap_or(&self.untouched);
         let reached = before.reached(scene);
-        let load = self.prescribed.next(snapshot.record.stage, (state, &reached), before.load.as_ref());
+        let place = (snapshot.record.stage, snapshot.share);
+        let load = self.prescribed.next(place, (state, &reached), before.load.as_ref());
         let solved = (!before.stands(&load))
             .then(|| solved((scene, last), snapshot, (&load, [before, former]), operators));
         Next { load, solved }
@@ -57,7 +58,7 @@ fn solved(
     (load, [before, former]): (&Load, [&Solved; 2]),
     (operators, found): (&mut Operators, Option<&Fields>),
 ) -> Solved {
-    let (record, region) = (&snapshot.record, scene.region);
+    let region = scene.region;
     let (tractions, zone) = snapshot.in_region(region);
     let moved = if let Some(found) = found {
         found.clone()
@@ -68,8 +69,8 @@ fn solved(
     };
     let motions = scene.motions(&snapshot.motions());
     let contact = ContactSet::loaded(&tractions[0]);
-    let end_point = record.work.end_point_increments > 0;
-    let rule = Rule::new(scene, (load, end_point), [before, former], (&contact, &[]), Cells::Entered);
+    let rule =
+        Rule::new(scene, (load, snapshot.by_end_points), [before, former], (&contact, &[]), Cells::Entered);
     let mut undeformed = scene.undeformed.clone();
     if let Some(depth) = last.and_then(|last| last.worn.as_ref()) {
         undeformed.iter_mut().zip(region.gather(depth)).for_each(|(gap, worn)| *gap += worn);

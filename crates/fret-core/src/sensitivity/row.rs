@@ -22,6 +22,13 @@ pub(super) enum Column {
     Bulk(usize, [f64; 2]),
 }
 
+impl Column {
+    /// Whether a part of an increment that ends it, or else another one, has something of the column: slip is that of all parts.
+    pub fn is_in_part(&self, ends_increment: bool) -> bool {
+        ends_increment || matches!(self, Self::Field(of) if (SLIP..WORN).contains(&of.field))
+    }
+}
+
 /// A result that is made of columns of increments: its value, how it changes with each of them, and how, beside these, with each of the parameters.
 #[derive(Debug, Clone)]
 pub(super) struct Composed {

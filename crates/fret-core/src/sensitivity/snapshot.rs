@@ -1,4 +1,4 @@
-//! Increments as a run left them, for later: where bodies touch, and no more.
+//! Increments and parts of them as a run left them, for later: where bodies touch, and no more.
 
 use std::sync::Arc;
 
@@ -12,9 +12,13 @@ use crate::solver::Region;
 /// Bytes a cell in contact: its number, three tractions, its zone.
 const CELL: usize = 4 + 3 * 8 + 1;
 
-/// An increment as the run left it: its record, and the state in front of the mirrors where there is pressure or shear.
+/// An increment, or a part of one, as the run left it: its record, and the state in front of the mirrors where there is pressure or shear.
 pub(super) struct Snapshot {
     pub record: StepRecord,
+    /// Share of the way of the increment at its end: 1 of a whole one, and of the last part of one.
+    pub share: f64,
+    /// Whether it was solved by the rule of end points.
+    pub by_end_points: bool,
     shape: [usize; 2],
     cells: Vec<u32>,
     tractions: [Vec<f64>; 3],
@@ -37,8 +41,12 @@ pub(super) struct Snapshot {
 }
 
 impl Snapshot {
-    /// That of a state, with its slip or without; `last`: the increment before.
-    pub fn of(record: &StepRecord, (state, with_slip): (&ContactState, bool), last: Option<&Self>) -> Self {
+    /// That of a state at a share of the way of an increment, with its slip or without; `last`: the one before.
+    pub fn of(
+        (record, share): (&StepRecord, f64),
+        (state, with_slip): (&ContactState, bool),
+        last: Option<&Self>,
+    ) -> Self {
         let fields = [&state.pressure, &state.shear[0], &state.shear[1]];
         let (rows, columns) = state.zone.dim();
         let fields = fields.map(|field| field.as_standard_layout());
@@ -53,6 +61,8 @@ impl Snapshot {
         let touched: Vec<usize> = (0..rows * columns).filter(|cell| touches(cell) || slipped(cell)).collect();
         Self {
             record: record.clone(),
+            share,
+            by_end_points: record.work.end_point_increments > 0,
             shape: [rows, columns],
             cells: touched.iter().map(|cell| *cell as u32).collect(),
             tractions: flat.map(|field| touched.iter().map(|cell| field[*cell]).collect()),
@@ -68,6 +78,11 @@ impl Snapshot {
             slipped: shared(state.accumulated.as_ref(), last.and_then(|last| last.slipped.as_ref())),
             block: 0,
         }
+    }
+
+    /// Whether the increment ends with it.
+    pub fn ends_increment(&self) -> bool {
+        self.share >= 1.0
     }
 
     /// Whether the surfaces have worn at its end, since another one.

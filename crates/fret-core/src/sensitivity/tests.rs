@@ -239,7 +239,8 @@ struct At<'a> {
 /// Shows every increment of a history that is linearised.
 fn each_increment(text: &str, mut show: impl FnMut(At<'_>, &mut Operators)) {
     let plan = Plan::new(Case::from_toml(text, "case.toml").unwrap()).unwrap();
-    let mut run = Snapshots { steps: Vec::new(), cycles: Vec::new(), with_slip: true, observer: &mut Silent };
+    let mut silent = Silent;
+    let mut run = Snapshots::heard_by(&mut silent, true);
     Simulation::new(&plan).run(&mut run).unwrap();
     let Snapshots { mut steps, cycles, .. } = run;
     end_blocks(&mut steps, &cycles);
@@ -505,7 +506,7 @@ fn an_increment_goes_backwards_by_its_transpose_block_by_block() {
     for text in [COUPLED, SIMILAR, WORN, &worn_through_layers()] {
         each_increment(text, |at, operators| {
             let cells = at.scene.region.len();
-            let increment = Increment::new(at.scene, (&at.snapshot.record, at.load), at.now, at.past);
+            let increment = Increment::new(at.scene, (at.snapshot.by_end_points, at.load), at.now, at.past);
             let mut equations = increment.equations(operators).unwrap();
             let (made, y) = (Made::random(&mut random, at.scene), change(&mut random, cells));
             let parts: Vec<Made> =

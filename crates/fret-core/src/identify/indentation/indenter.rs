@@ -111,6 +111,7 @@ impl<'a> Indenter<'a> {
             roll_direction: along_x(),
             increments: self.depths.len(),
             history_tolerance: None,
+            divides_first_touch: false,
             course: Course::Linear,
             friction: None,
         }];
