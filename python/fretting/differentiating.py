@@ -79,7 +79,8 @@ def gradient(
         When the case is refused.
     ValueError
         When a result or a number is not one of the case, or the case is of a kind that is not covered: with
-        ``wear.debris.stiffness`` or ``wear.thinning_tolerance``, hardness, surfaces that move or roll, or graded coatings.
+        ``wear.debris.stiffness`` or ``wear.thinning_tolerance``, hardness, surfaces that move or roll, or
+        graded coatings.
     RunError
         When the run fails, or the linear equations of an increment are not solved.
     """
