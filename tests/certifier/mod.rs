@@ -79,6 +79,12 @@ fn relative_strain(bodies: &ContactPair, plane_strain: bool, stress: [[f64; 2]; 
     [lower[0] - upper[0], lower[1] - upper[1]]
 }
 
+/// The friction of a stage, as the case gives it.
+fn law_of(plan: &Plan, stage: usize) -> &CoulombFriction {
+    let mut latest_first = plan.case.stages[..=stage].iter().rev();
+    latest_first.find_map(|stage| stage.friction.as_ref()).unwrap_or(&plan.case.friction)
+}
+
 /// What an increment leaves to the next one.
 struct Before {
     pressure: Array2<f64>,
@@ -171,17 +177,14 @@ impl<'a> Certifier<'a> {
         let begins_stage = self.before.stage != record.stage;
         let load = self.prescribed(record.stage, share);
         let case = &self.plan.case;
-        let law = case.stages[..=record.stage].iter().rev().find_map(|stage| stage.friction.as_ref());
         let evolved = friction.clone().filter(|_| case.friction_evolution.is_some());
         let evolved = evolved.and_then(|map| CoulombFriction::map(map).ok());
         let evolved = evolved.map(|law| law.with_max_shear_of(&case.friction));
-        let law = evolved.as_ref().or(law).unwrap_or(&case.friction);
+        let law = evolved.as_ref().unwrap_or_else(|| law_of(self.plan, record.stage));
         // Where friction has changed at once nothing goes on from before.
-        let law_of = |stage: usize| {
-            let mut latest_first = case.stages[..=stage].iter().rev();
-            latest_first.find_map(|stage| stage.friction.as_ref()).unwrap_or(&case.friction)
-        };
-        if begins_stage && law_of(record.stage) != law_of(record.stage.saturating_sub(1)) {
+        let [own, of_last] =
+            [record.stage, record.stage.saturating_sub(1)].map(|stage| law_of(self.plan, stage));
+        if begins_stage && own != of_last {
             let last = self.past.loads.len().saturating_sub(1);
             self.past.loads.drain(..last);
         }

@@ -153,7 +153,9 @@ pub fn first_touch(
         }
     }
     if is_whole {
-        ends.iter().for_each(|end| in_vain += end.work);
+        for end in &ends {
+            in_vain += end.work;
+        }
         solver.restore_memory(memory);
         let (mut end, parts) = in_halves(solver, surfaces, span, heard)?;
         end.work += in_vain;
