@@ -114,7 +114,9 @@ impl Observer for Witness {
     fn passed(&mut self, part: &Part<'_>) {
         let Part { share, record, kept, .. } = *part;
         // Those of a way that was given up.
-        self.parts.retain(|known| known.share < share);
+        if self.parts.last().is_some_and(|last| last.share >= share) {
+            self.parts.clear();
+        }
         if let Some(fields) = kept {
             self.parts.push(KeptPart { share, record: record.clone(), fields: fields.clone() });
         }

@@ -22,7 +22,7 @@ use crate::solver::sliding_fraction;
 const MOST_INCREMENTS: usize = 10_000_000;
 /// Bound on the error of the history where it is left to the program.
 const HISTORY_TOLERANCE: f64 = 0.03;
-/// Increments of a stage from which on the one in which bodies touch for the first time is solved in parts: of fewer they would be most of the work.
+/// Increments of a stage from which on those in which bodies come to touch are solved in parts: of fewer they would be most of the work.
 const FEWEST_TO_DIVIDE: usize = 8;
 /// Fraction of a cycle for which a trapezoid holds each extreme, where the case does not say.
 const DWELL: f64 = 0.25;

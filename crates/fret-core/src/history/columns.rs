@@ -211,7 +211,7 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
     ),
     count(
         "parts",
-        "number of sub-steps: more than 1 with increments = \"auto\", where bodies that are pressed together evenly touch for the first time, on the way to a steady state of rolling, or where the whole increment did not converge",
+        "number of sub-steps: more than 1 with increments = \"auto\", where bodies that were apart come to touch in a linear ramp, on the way to a steady state of rolling, or where the whole increment did not converge",
         NO_UNIT,
         |step| step.parts,
     ),

@@ -39,7 +39,7 @@ pub struct Stage<M = CellMap> {
     /// tractions go in it). Default: in one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub history_tolerance: Option<f64>,
-    /// Whether an increment in which the bodies touch for the first time is solved in parts. A study of other numbers of increments keeps to it.
+    /// Whether an increment in which bodies that were apart come to touch is solved in parts. A study of other numbers of increments keeps to it.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub divides_first_touch: bool,
     /// How the stage runs through its increments.

@@ -272,7 +272,8 @@ impl<'a> Journey<'a> {
         };
         let (state, plan) = (&self.state, self.plan);
         let setting = (plan.symmetry, case.periodic);
-        let (hears, mut is_divided, mut unkept) = (observer.borrow().hears_parts(), false, None);
+        let (hears, leaves) = (observer.borrow().hears_parts(), observer.borrow().leaves_fields());
+        let (mut is_divided, mut unkept) = (false, None);
         let mut passed = |share: f64, solved: &Increment, friction: &CoulombFriction| {
             is_divided |= share < 1.0;
             if !hears || !is_divided {
@@ -280,7 +281,7 @@ impl<'a> Journey<'a> {
             }
             let record = record(solved, (case.springs(), friction, setting), (increment, stage, 1), 0.0);
             let fields = || kept(solved, (friction, plan.symmetry), increment, &case.output.fields);
-            match may_keep.then(fields).transpose() {
+            match (may_keep && leaves).then(fields).transpose() {
                 Err(error) => unkept = Some(error),
                 Ok(kept) => {
                     let state = MirroredState { part: &solved.state, symmetry: plan.symmetry };

@@ -26,11 +26,12 @@ pub struct Iteration {
 pub struct Part<'a> {
     /// Share of the way of the increment at its end; 1 in the last.
     pub share: f64,
-    /// What would be recorded of it as an increment: sums of the history end with it, and the work is its own.
+    /// What would be recorded of it as an increment, without what is told where an increment ends (wear, debris, yielding, rates by distance rolled):
+    /// sums of the history end with it, and the work is its own.
     pub record: &'a StepRecord,
     /// Its end.
     pub state: MirroredState<'a>,
-    /// Its fields, where those of the increment may be kept.
+    /// Its fields but wear and debris, where those of the increment may be kept in the history.
     pub kept: Option<&'a KeptFields>,
 }
 

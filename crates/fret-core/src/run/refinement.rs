@@ -1,4 +1,4 @@
-//! Increments in parts: where the whole is not solved, where bodies touch for the first time, and where the history is to depend no longer on the
+//! Increments in parts: where the whole is not solved, where bodies come to touch, and where the history is to depend no longer on the
 //! size of increments, since the shear that slip leaves behind in a growing contact is of first order in the increment.
 
 use ndarray::Zip;
@@ -12,7 +12,7 @@ use crate::solver::{Increment, IterationCallback, SolveError, SolverMemory};
 
 /// Halvings of a step that is not solved as a whole, at the most.
 const MOST_HALVINGS: u32 = 5;
-/// Parts of the increment in which bodies touch for the first time.
+/// Parts of an increment in which bodies come to touch.
 const OF_FIRST_TOUCH: i32 = 4;
 /// Parts of an increment, at the most.
 const MOST_PARTS: usize = 1024;
@@ -114,10 +114,11 @@ fn take(
     Ok(())
 }
 
-/// Solves the increment in which bodies touch for the first time, to which they are pressed evenly, in parts in which the contact of two spheres
-/// grows evenly. Nothing is known of what went before the first of them, so that it is of first order, and the smaller it is the
-/// less of the contact keeps its error. It is the first one after which cells stick: where all slip, as a few cells may, the bodies are nowhere in
-/// particular. Where a part is not solved as a whole, or cannot end there, the increment is. With the end the number of parts, as [`in_halves`].
+/// Solves an increment in which bodies that were apart come to touch, under loads that grow evenly, in parts in which the contact of two spheres
+/// grows evenly. Nothing is known of what went before the first part, so that it is of first order, and the smaller it is the less of the contact
+/// keeps its error. Leading parts after which no cell sticks are passed over: where all slip, as a few cells may, the bodies are nowhere in particular;
+/// the next part then starts where the increment does. Where a part has no solution, or surfaces move, the increment is solved as a whole. With the
+/// end the number of parts, as [`in_halves`].
 ///
 /// # Errors
 /// As [`in_halves`].
@@ -136,7 +137,9 @@ pub fn first_touch(
     let memory = solver.memory().clone();
     let mut in_vain = Work::default();
     let mut ends: Vec<Increment> = Vec::with_capacity(loads.len());
-    let mut is_whole = !loads.iter().all(|(_, load)| solver.may_stop_at(span.state, load));
+    // Where surfaces move, friction may be another one in each part.
+    let mut is_whole =
+        solver.moving.is_some() || !loads.iter().all(|(_, load)| solver.may_stop_at(span.state, load));
     for (share, load) in &loads {
         if is_whole {
             break;
@@ -144,17 +147,18 @@ pub fn first_touch(
         let state = ends.last().map_or(span.state, |end| &end.state);
         match solver.step(state, load, heard.iteration) {
             Ok(slips) if *share < 1.0 && ends.is_empty() && slips.outcome.stick_cells == 0 => {
-                in_vain += slips.work;
+                in_vain += Work { end_point_increments: 0, ..slips.work };
                 solver.restore_memory(memory.clone());
             }
             Ok(end) => ends.push(end),
-            Err(error) if error.is_of_long_increments() => is_whole = true,
-            Err(error) => return Err(error),
+            Err(SolveError::Stopped) => return Err(SolveError::Stopped),
+            // A part may ask for more than friction bears at its load; what the whole asks for is told by that.
+            Err(_) => is_whole = true,
         }
     }
     if is_whole {
         for end in &ends {
-            in_vain += end.work;
+            in_vain += Work { end_point_increments: 0, ..end.work };
         }
         solver.restore_memory(memory);
         let (mut end, parts) = in_halves(solver, surfaces, span, heard)?;

@@ -356,8 +356,12 @@ impl Observer for Snapshots<'_> {
 
     fn passed(&mut self, part: &Part<'_>) {
         let Part { share, record, state, .. } = *part;
-        // Those of a way that was given up.
-        self.parts.retain(|known| known.share < share);
+        if self.last_by_end_points.take().is_some()
+            || self.parts.last().is_some_and(|last| last.share >= share)
+        {
+            // Those of a way that was given up.
+            self.parts.clear();
+        }
         if share < 1.0 {
             let last = self.parts.last().or(self.steps.last());
             let snapshot = Snapshot::of((record, share), (state.part, self.with_slip), last);

@@ -261,8 +261,7 @@ fn each_increment(text: &str, mut show: impl FnMut(At<'_>, &mut Operators)) {
 
 fn rule_of(at: &At<'_>) -> Rule {
     let zones: Vec<Zone> = at.now.contact.cells().map(|cell| at.now.zone_of(cell)).collect();
-    let end_point = at.snapshot.record.work.end_point_increments > 0;
-    Rule::new(at.scene, (at.load, end_point), at.past, (&at.now.contact, &zones), Cells::All)
+    Rule::new(at.scene, (at.load, at.snapshot.by_end_points), at.past, (&at.now.contact, &zones), Cells::All)
 }
 
 /// 1e-12: rounding of sums of some thousand products, whose parts cancel to a hundredth.

@@ -395,6 +395,8 @@ impl<'a> ContactSolver<'a> {
         load: &LoadStep,
         callback: IterationCallback<'_>,
     ) -> Result<Increment, SolveError> {
+        // Work of an attempt that failed counts; which rule it ended by does not.
+        self.work.end_point_increments = 0;
         let symmetry = self.symmetry;
         let solved = if symmetry.any() {
             self.solve_tilted(state, &symmetry.part_of_load(load, state), callback)
