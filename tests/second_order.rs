@@ -102,7 +102,7 @@ fn forces_that_grow_evenly_from_nothing_find_their_shift() {
 }
 
 /// A quarter of the way to an approach friction bears an eighth of what it bears at the end, and a force that grows evenly asks for a quarter: where
-/// a part asks for too much the whole increment is solved, and so is one of few.
+/// a part asks for too much the whole increment is solved; and it is where the stage has seven.
 #[test]
 fn a_first_touch_whose_parts_have_no_solution_is_solved_as_a_whole() {
     let sphere = Sphere { cells: 32, friction: 0.3, ..Sphere::default() };

@@ -5,9 +5,9 @@
 //! `(Q - Q_l - slope (d - d_l))/sqrt(s_q^2 + (slope s_d)^2)` with the slope at the foot `(d_l, Q_l)` of the point on the loop. (At the
 //! measured displacement in place of that of the foot, noise in the displacement shifts the constants: 2 % of the amplitude, 5 % of the
 //! friction coefficient in partial slip.) Feet are those of the round before. Within a round a loop is taken for the coarse one of the same constants
-//! and what this lacks where the round begins (`loops`): what is least in the end is the distance from an exact loop, by derivatives of coarse ones. The units are in the ratio of the noise that the
-//! signals have from point to point, and as large as the amplitudes. Offsets of both and a drift of the displacement are fitted with the
-//! constants, so that their uncertainty is in the intervals. These are linear about the solution (`intervals`); the error of the grid is not in them.
+//! and what this lacks where the round begins (`loops`): what is least in the end is the distance from an exact loop, by derivatives of coarse
+//! ones. The units are in the ratio of the noise that the signals have from point to point, and as large as the amplitudes. Offsets of both and a
+//! drift of the displacement are fitted with the constants, so that their uncertainty is in the intervals. These are linear about the solution (`intervals`); the error of the grid is not in them.
 //!
 //! A bend of the drift within the cycle changes the stiffness as much as itself, relative to the amplitude, and a loop hardly tells it.
 //! It is that of the middles of the neighbouring cycles, where there are two; else it counts in the intervals with as much as the
